@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
@@ -138,6 +139,9 @@ void write_texels(const PlanContext& c, const MapRequest& request, const MapPart
     const glm::dvec2 longest = longest_sides(space, parts.body, parts.plane, parts.rows) /
                                (glm::dvec2(map.width, map.height) - 2.0 * map.filter_margin_texels) *
                                parts.longest;
+    // The hull round what several views see may have its centre where a warp of what they see shows nothing.
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (!(map.texel_world.x < kInfinity && map.texel_world.y < kInfinity)) map.texel_world = longest;
     map.texel_world_max = {max_of(map.texel_world.x, longest.x), max_of(map.texel_world.y, longest.y)};
   }
   const double texel = max_of(map.texel_world.x, map.texel_world.y);

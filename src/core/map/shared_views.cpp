@@ -194,9 +194,17 @@ Camera mean_camera(std::span<const SharedView> views, const glm::dvec3& origin) 
       const double along = camera.orthographic ? 1.0 : glm::dot(axes.forward, ray);
       const double at_x = glm::dot(axes.right, ray), at_y = glm::dot(axes.up, ray);
       const double least = camera.orthographic ? 1.0 : max_of(std::abs(at_x), std::abs(at_y)) / kSteepest;
-      x.extend(at_x / max_of(along, least));
-      y.extend(at_y / max_of(along, least));
+      const double depth = max_of(along, least);
+      if (!(depth > 0.0)) continue;  // straight behind
+      x.extend(at_x / depth);
+      y.extend(at_y / depth);
     }
+  }
+  // Where all rays of all views are as steep on one side, there is no image between them: the first stands
+  // in.
+  if (!(x.high > x.low && y.high > y.low)) {
+    mean.forward = views[0].camera.forward;
+    return mean;
   }
   mean.left = x.low;
   mean.right = x.high;
@@ -204,8 +212,13 @@ Camera mean_camera(std::span<const SharedView> views, const glm::dvec3& origin) 
   mean.top = y.high;
   // The image of equal cameras is as many pixels wide as theirs.
   constexpr double kMaxPixels = 1 << 20, kRounding = 1e-6;
-  mean.width = static_cast<int>(clamp_to(std::ceil(finest * (x.high - x.low) - kRounding), 1.0, kMaxPixels));
-  mean.height = static_cast<int>(clamp_to(std::ceil(finest * (y.high - y.low) - kRounding), 1.0, kMaxPixels));
+  // Without a branch, before which a compiler might convert what no int holds.
+  const auto pixels = [&](const Interval& side) {
+    const double count = std::ceil(finest * (side.high - side.low) - kRounding);
+    return static_cast<int>(min_of(max_of(count, 1.0), kMaxPixels));
+  };
+  mean.width = pixels(x);
+  mean.height = pixels(y);
   return mean;
 }
 

@@ -194,9 +194,10 @@ Resolved resolve(const PlanOptions& options, const PlanCase& plan) noexcept {
   how.rotated = options.fit == Fit::rotated;
   how.caches_maps = options.fit == Fit::warped_stable;
   const bool parallel = std::holds_alternative<DirectionalLight>(plan.light);
+  // Several views, and one that is planned as they are, divide by view depth alone.
+  const bool divides = parallel && plan.views == 0 && divides_parallel(options.split.partition);
   r.counts_seen = options.warp.objective == Objective::picture && !how.stable && plan.views <= 1 &&
-                  !(parallel && divides_parallel(options.split.partition)) &&
-                  (chooses_warp(options) || (parallel && splits_by_seen(options)));
+                  !divides && (chooses_warp(options) || (parallel && splits_by_seen(options)));
   if (options.warp.objective == Objective::picture && !r.counts_seen)
     r.options.warp.objective = Objective::storage;
   if (plan.views > 0) share(plan.views, r);
@@ -239,6 +240,10 @@ ResolvedPages resolve_pages(const PlanOptions& options, bool stable, int texels,
   if (stable || o.warp.warp == nullptr) o.warp.warp = &warps::none;
   if (options.warp.has_planes()) pages.ignored.add(IgnoredOption::planes);
   o.warp.planes = {};
+  // Levels are grids of even texels.
+  if (options.warp.shape != nullptr && options.warp.shape != &shapes::linear)
+    pages.ignored.add(IgnoredOption::shape);
+  o.warp.shape = &shapes::linear;
   o.bias = options.bias;
   o.clip_space = options.clip_space;
   o.prune = options.prune.without(PruneRule::metric_resolution);

@@ -114,10 +114,10 @@ void PagePool::build(const PagePlan& plan, const PageFrame& frame) {
 }
 
 void PagePool::send_tables(const PagePlan& plan) {
-  const glm::dmat4 drawn_from_plan = drawn_from_plan_clip(plan.clip_space);
   levels_.clear();
   for (const ShadowMap& map : plan.levels) {
-    Level level{glm::mat4(drawn_from_plan * glm::dmat4(map.clip_from_camera_relative)), {}, {}};
+    // Columns and rows count along the plan's own x and y, whichever way they are drawn.
+    Level level{map.clip_from_camera_relative, {}, {}};
     level.select_planes.fill({0.0f, 0.0f, 0.0f, 1.0f});
     for (int i = 0; i < map.select_plane_count; ++i) {
       const glm::dvec4 plane = map.select_planes[static_cast<std::size_t>(i)];

@@ -33,9 +33,11 @@ ShadowMap block_map(const PagePlan& plan_of_blocks, const PageBlock& block) noex
   return page_map(plan_of_blocks, page);
 }
 
-/// Culls to a rectangle of the map in place of all of it; a local light's plane stays.
-void cull_to(const TexelRect& rectangle, const ClipSpace& clip_space, ShadowMap& map) noexcept {
-  const auto sides = rectangle_planes(map, rectangle, clip_space);
+/// Culls to a rectangle of the map, as it is drawn, in place of all of it; a local light's plane stays.
+void cull_to(const TexelRect& rectangle, const glm::dmat4& drawn_from_plan, ShadowMap& map) noexcept {
+  ShadowMap drawn = map;
+  drawn.clip_from_world = drawn_from_plan * map.clip_from_world;
+  const auto sides = rectangle_planes(drawn, rectangle, kOpenGlZeroToOne);
   std::copy(sides.begin(), sides.end(), map.cull_planes.begin());
 }
 
@@ -50,6 +52,10 @@ PageBlock block_of(const PagePlan& plan, const Page& page) noexcept {
   PageBlock block{page.level, floor_div(column, kBlockPages), floor_div(row, kBlockPages)};
   block.x = static_cast<int>(column - kBlockPages * block.column) * plan.page_texels;
   block.y = static_cast<int>(row - kBlockPages * block.row) * plan.page_texels;
+  // The plan's x or y may be drawn the other way round.
+  const int last = (kBlockPages - 1) * plan.page_texels;
+  if (plan.clip_space.handedness == Handedness::left) block.x = last - block.x;
+  if (plan.clip_space.y_down) block.y = last - block.y;
   return block;
 }
 
@@ -70,7 +76,7 @@ void group_pages(const PagePlan& plan, const glm::dvec3& origin_world, std::vect
       run.place = joined(run.place, at(pages[end]));
     run.composed = pages[begin].drawn.composed;
     run.map = block_map(of_blocks, pages[begin].block);
-    cull_to(run.place, plan.clip_space, run.map);
+    cull_to(run.place, drawn_from_plan, run.map);
     glm::dmat4 m = run.map.clip_from_world;
     m[3] = m * glm::dvec4(origin_world, 1.0);
     run.clip_from_position = glm::mat4(drawn_from_plan * m);

@@ -48,7 +48,12 @@ const std::vector<Kind>& all_kinds() {
       {"pool_exceeded", "pages and maps of many lights stay within their pool and their budget"},
       {"pool_place_taken", "each page and each map of a light has a place of its own in the pool"},
       {"point_without_page", "every visible point that the light can reach has a page"},
-      {"page_stale", "an empty pool draws all pages, and one that holds them none"},
+      {"page_stale",
+       "an empty pool draws all pages, one that holds them none, and a page is drawn again where a "
+       "caster moved"},
+      {"page_above_target", "no more points than the plan says have pages that are coarser than its target"},
+      {"views_refused", "legal input is planned for several cameras"},
+      {"views_of_one_differ", "one camera alone has the plan of make_plan"},
       {"warp_worse_than_none", "a warp that may be dropped is not worse than none by the plan's objective"},
   };
   return kKinds;
@@ -65,15 +70,21 @@ void Counts::add(const Counts& other) {
   unmapped += other.unmapped;
   measured += other.measured;
   warps += other.warps;
+  view_plans += other.view_plans;
+  page_points += other.page_points;
+}
+
+void add_worst(std::vector<Finding>& findings, const Finding& finding) {
+  for (Finding& f : findings) {
+    if (f.kind != finding.kind) continue;
+    if (finding.amount > f.amount) f = finding;
+    return;
+  }
+  findings.push_back(finding);
 }
 
 void Report::add(std::string_view kind, double amount, const std::string& text) {
-  for (Finding& f : verdict_.findings) {
-    if (f.kind != kind) continue;
-    if (amount > f.amount) f = {kind, amount, std::string(words_) + text};
-    return;
-  }
-  verdict_.findings.push_back({kind, amount, std::string(words_) + text});
+  add_worst(verdict_.findings, {kind, amount, std::string(words_) + text});
 }
 
 namespace {
@@ -231,6 +242,7 @@ Verdict check_case(const nlohmann::ordered_json& value) {
   check_metric(input, plan, report);
   check_warp(value, report);
   check_seen(value, input, seen, report);
+  check_views(input, report);
   check_pages(input, seen, report);
   check_lights(input, seen, report);
   return verdict;

@@ -19,6 +19,9 @@ struct Finding {
   std::string text;       ///< what happened where, on one line
 };
 
+/// Keeps the worst finding of each kind.
+void add_worst(std::vector<Finding>& findings, const Finding& finding);
+
 /// A kind of finding, with the promise that it breaks.
 struct Kind {
   std::string_view name, promise;
@@ -28,7 +31,7 @@ struct Kind {
 /// What was looked at, so that nothing passes for lack of checks.
 struct Counts {
   long long plans = 0, seen_plans = 0, pages = 0, light_maps = 0, maps = 0, receivers = 0, casters = 0,
-            unmapped = 0, measured = 0, warps = 0;
+            unmapped = 0, measured = 0, warps = 0, view_plans = 0, page_points = 0;
   void add(const Counts& other);
 };
 
@@ -65,8 +68,11 @@ void check_points(const Case& input, const ShadowPlan& plan, std::span<const glm
                   Report& report);
 /// The metric against its definition.
 void check_metric(const Case& input, const ShadowPlan& plan, Report& report);
-/// Pages for these visible points under every policy: each point served, within the pool, kept as they are.
+/// Pages for these visible points under every policy: each point served as finely as it was promised, within
+/// the pool, kept as they are, and drawn again where a caster moved.
 void check_pages(const Case& input, std::span<const glm::dvec3> seen, Report& report);
+/// Maps that several cameras share: what each of them sees is in them, with its casters.
+void check_views(const Case& input, Report& report);
 /// The light and a sun in one pool: within the budget, and no two maps in one place.
 void check_lights(const Case& input, std::span<const glm::dvec3> points, Report& report);
 /// That a warp which may be dropped lowers the objective.

@@ -9,6 +9,7 @@
 #include "check.hpp"
 #include "geometry.hpp"
 #include "gnomon/lights.hpp"
+#include "gnomon/measure.hpp"
 #include "gnomon/pages.hpp"
 
 namespace gnomon::stress {
@@ -38,7 +39,61 @@ void check_places(const PagePlan& plan, Report& report) {
   }
 }
 
-void check_kept(const PagePlan& plan, Report& report) {
+/// Whether light through the middle of the box falls onto a texel of the page, clear of its border.
+bool clearly_reaches(const PagePlan& plan, const Page& page, const Box& box) {
+  const ShadowMap map = page_map(plan, page);
+  const glm::dvec4 clip = map.clip_from_world * glm::dvec4(0.5 * (box.min + box.max), 1.0);
+  if (!(clip.w > 0.0)) return false;
+  const glm::dvec3 ndc = glm::dvec3(clip) / clip.w;
+  // The page's own depths are those of all casters.
+  constexpr double kInside = 0.99;
+  return std::max(std::abs(ndc.x), std::abs(ndc.y)) < kInside && std::abs(ndc.z) < kInside;
+}
+
+/// A caster that moved: the pages that it clearly lies before are drawn again.
+void check_moved(const Case& input, const PagePlan& plan, std::span<PageSlot> slots,
+                 std::span<std::uint32_t> table, Report& report) {
+  std::vector<KeptPage> kept(plan.pages.size());
+  constexpr std::size_t kMost = 4;
+  for (std::size_t i = 0; i < std::min(input.casters.size(), kMost); ++i) {
+    const Box& box = input.casters[i];
+    (void)keep_pages(plan, {&box, 1}, slots, table, kept);
+    if (box.empty()) continue;
+    for (std::size_t k = 0; k < kept.size(); ++k) {
+      if (!kept[k].draw && clearly_reaches(plan, plan.pages[k], box))
+        report.add("page_stale", 1.0,
+                   "page " + std::to_string(k) + " is kept, though caster " + std::to_string(i) +
+                       " moved before it");
+    }
+  }
+}
+
+/// Points whose page is coarser than the target: no more than the plan counts.
+void check_errors(const Case& input, const PagePlan& plan, std::span<const glm::dvec3> points,
+                  Report& report) {
+  constexpr double kRounding = 1.0 + 1e-6;
+  std::uint64_t above = 0;
+  double worst = 0.0;
+  for (const glm::dvec3& point : points) {
+    const int page = page_serving(plan, point);
+    if (page < 0) continue;
+    ++report.counts().page_points;
+    const ShadowMap& level = plan.levels[plan.pages[static_cast<std::size_t>(page)].level];
+    const PointAliasing m = measure_perspective(level, input.camera, point);
+    const double side = std::max(m.m_s, m.m_t);
+    if (m.status != PointAliasing::Status::ok || !(side > plan.target_m * kRounding)) continue;
+    ++above;
+    worst = std::max(worst, side / plan.target_m);
+  }
+  const std::uint64_t said = plan.points_capped + plan.points_outside;
+  if (above > said)
+    report.add("page_above_target", worst,
+               std::string(plan.policy->name) + ": " +
+                   of(above, " points are above the target, said to be ", said) + ", the worst by " +
+                   std::to_string(worst) + ", target " + std::to_string(plan.target_m));
+}
+
+void check_kept(const Case& input, const PagePlan& plan, Report& report) {
   std::vector<PageSlot> slots(kPages);
   std::vector<std::uint32_t> table(page_table_size(kPages));
   std::vector<KeptPage> kept(plan.pages.size());
@@ -49,6 +104,7 @@ void check_kept(const PagePlan& plan, Report& report) {
   if (again.drawn != 0)
     report.add("page_stale", static_cast<double>(again.drawn),
                of(again.drawn, " pages drawn again, nothing has moved, of ", plan.pages.size()));
+  check_moved(input, plan, slots, table, report);
   std::vector<char> taken(kPages, 0);
   for (const KeptPage& page : kept) {
     if (taken[page.slot]++ != 0)
@@ -91,7 +147,10 @@ void check_pages(const Case& input, std::span<const glm::dvec3> seen, Report& re
     if (plan.status != PlanStatus::ok) continue;
     report.counts().pages += static_cast<long long>(plan.pages.size());
     check_places(plan, report);
-    check_kept(plan, report);
+    check_kept(input, plan, report);
+    // The others spend the pool, or follow what a picture reports.
+    if (policy == &page_policies::resolution || policy == &page_policies::clipmap)
+      check_errors(input, plan, points, report);
     std::uint64_t served = 0;
     for (const glm::dvec3& point : points) served += page_serving(plan, point) >= 0 ? 1 : 0;
     if (served < plan.points || plan.points + plan.points_outside != points.size())

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/random.hpp"
+#include "dice.hpp"
 #include "gnomon/extend/shape.hpp"
 #include "gnomon/extend/warp.hpp"
 #include "gnomon/options.hpp"
@@ -19,46 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Random numbers without the C library's functions, whose last bits differ from one to the next.
-class Dice {
- public:
-  explicit Dice(std::uint64_t seed) : random_(seed) {}
-  double unit() { return random_.unit(); }
-  double between(double low, double high) { return random_.between(low, high); }
-  int pick(int count) { return random_.pick(count); }
-  bool chance(double share) { return unit() < share; }
-  /// 2 to a power between these, up to the shape between whole powers.
-  double power(double low, double high) {
-    const double exponent = between(low, high), whole = std::floor(exponent);
-    return std::ldexp(1.0 + (exponent - whole), static_cast<int>(whole));
-  }
-  double sign() { return chance(0.5) ? 1.0 : -1.0; }
-  /// In a cube from -1 to 1.
-  glm::dvec3 vector() {
-    const double x = between(-1.0, 1.0), y = between(-1.0, 1.0), z = between(-1.0, 1.0);
-    return {x, y, z};
-  }
-  glm::dvec3 direction() {
-    for (;;) {
-      const glm::dvec3 v = vector();
-      const double square = glm::dot(v, v);
-      if (square > 0.01 && square < 1.0) return v / std::sqrt(square);
-    }
-  }
-  glm::dvec3 axis() {
-    glm::dvec3 v(0.0);
-    v[pick(3)] = sign();
-    return v;
-  }
-  template <std::size_t N>
-  std::string_view name(const std::string_view (&names)[N]) {
-    return names[static_cast<std::size_t>(pick(static_cast<int>(N)))];
-  }
-
- private:
-  Random random_;
-};
-
 Json json(const glm::dvec3& v) {
   return Json::array({v.x, v.y, v.z});
 }
@@ -67,18 +27,6 @@ glm::dvec3 any_across(const glm::dvec3& v) {
   const glm::dvec3 other = std::abs(v.y) < 0.7 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
   return glm::normalize(glm::cross(v, other));
 }
-
-/// What the parts of a case are placed by.
-struct Stage {
-  glm::dvec3 eye{0.0}, forward{0.0, 0.0, -1.0}, right{1.0, 0.0, 0.0}, up{0.0, 1.0, 0.0};
-  bool orthographic = false;
-  double left = -1.0, right_edge = 1.0, bottom = -1.0, top = 1.0;
-  double near_depth = 0.1, far_depth = 100.0;
-  bool stiff = false;
-  glm::dvec3 light{0.0};  ///< its position, or the unit way that it travels
-  bool parallel = true;
-  double range = 0.0;
-};
 
 struct BoxOf {
   glm::dvec3 min, max;
@@ -441,6 +389,16 @@ void draw_rest(Dice& dice, Json& o) {
 
 }  // namespace
 
+Json draw_options(Dice& dice, const Stage& stage) {
+  Json options = Json::object();
+  draw_split(dice, stage, options);
+  draw_warp(dice, stage, options);
+  draw_map(dice, stage, options);
+  draw_rest(dice, options);
+  if (stage.parallel && dice.chance(0.1)) draw_planes(dice, stage, options);
+  return options;
+}
+
 Json draw_case(std::uint64_t seed, std::uint64_t number) {
   // Neighbouring seeds must not share cases; odd, so that no two numbers of a seed meet.
   constexpr std::uint64_t kGolden = 0x9e3779b97f4a7c15ULL;
@@ -451,13 +409,7 @@ Json draw_case(std::uint64_t seed, std::uint64_t number) {
   value["camera"] = draw_camera(dice, stage);
   value["light"] = draw_light(dice, stage);
   draw_boxes(dice, stage, value);
-  Json options = Json::object();
-  draw_split(dice, stage, options);
-  draw_warp(dice, stage, options);
-  draw_map(dice, stage, options);
-  draw_rest(dice, options);
-  if (stage.parallel && dice.chance(0.1)) draw_planes(dice, stage, options);
-  value["options"] = options;
+  value["options"] = draw_options(dice, stage);
   return value;
 }
 

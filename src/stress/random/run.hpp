@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "check.hpp"
+#include "failures.hpp"
 
 namespace gnomon::stress {
 
@@ -14,17 +15,6 @@ struct RandomOptions {
   long long cases = 1000;
   std::uint64_t seed = 1;
   bool shrink = true;
-};
-
-/// A kind of failure over all cases.
-struct KindFound {
-  std::string_view kind;
-  long long cases = 0;      ///< that have it
-  std::uint64_t first = 0;  ///< number of the first of them
-  double worst = 0.0;       ///< largest amount, and where it was
-  std::uint64_t worst_case = 0;
-  std::string text;       ///< of the shrunk case
-  std::string case_file;  ///< the shrunk case, indented
 };
 
 /// Time of a plan, for cases of one sort.

@@ -23,8 +23,9 @@ class Shrinker {
   Json run() {
     for (bool smaller = true; smaller && left_ > 0;) {
       smaller = false;
-      for (const char* list : {"casters", "receivers"}) smaller = drop_boxes(list) || smaller;
-      smaller = drop_keys(Json::json_pointer("/options")) || smaller;
+      for (const char* list : {"casters", "receivers", "objects"}) smaller = drop_boxes(list) || smaller;
+      for (const char* keys : {"/options", "/frame"})
+        smaller = drop_keys(Json::json_pointer(keys)) || smaller;
       smaller = round_numbers() || smaller;
     }
     return best_;
@@ -40,7 +41,7 @@ class Shrinker {
   /// Half of the boxes at once, then ever fewer.
   bool drop_boxes(const char* name) {
     bool smaller = false;
-    if (!best_[name].is_array()) return false;
+    if (!best_.contains(name) || !best_[name].is_array()) return false;
     for (std::size_t run = std::max<std::size_t>(best_[name].size() / 2, 1); run >= 1; run /= 2) {
       for (std::size_t begin = 0; begin < best_[name].size() && best_[name].size() > 1 && left_ > 0;) {
         Json candidate = best_;

@@ -8,16 +8,23 @@
 #include "output.hpp"
 #include "progress.hpp"
 #include "run.hpp"
+#ifdef GNOMON_STRESS_HAS_FRAMES
+#include "stress/frames.hpp"
+#endif
 
 namespace gnomon::tool {
 namespace {
 
 namespace fs = std::filesystem;
 
-stress::Verdict check_file(const fs::path& file) {
+std::string text_of(const fs::path& file) {
   std::string text;
   const std::string why = read_bounded_file(file, kMaxCaseBytes, Readable::file_or_pipe, text);
   if (!why.empty()) throw CaseError(shown_name(file) + ": " + why);
+  return text;
+}
+
+stress::Verdict check_text(const std::string& text, const fs::path& file) {
   try {
     (void)read_case(text);  // says what is wrong with it, and where
   } catch (const CaseError& error) {
@@ -29,7 +36,14 @@ stress::Verdict check_file(const fs::path& file) {
 int replay(const RandomStressRequest& request) {
   int failed = 0;
   for (const std::string& file : request.replay) {
-    const stress::Verdict verdict = check_file(file);
+    const std::string text = text_of(file);
+#ifdef GNOMON_STRESS_HAS_FRAMES
+    if (is_frame_file(text)) {
+      failed += replay_frame(text, shown_name(file), request.context) ? 1 : 0;
+      continue;
+    }
+#endif
+    const stress::Verdict verdict = check_text(text, file);
     for (const stress::Finding& f : verdict.findings)
       print_line(shown_name(file) + ": " + std::string(f.kind) + ": " + f.text);
     if (verdict.findings.empty()) print_line(shown_name(file) + ": keeps every promise");

@@ -5,13 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/render/context.hpp"
+
 namespace gnomon::tool {
 
 struct RandomStressRequest {
   std::uint64_t random = 0;  ///< random cases
   std::uint64_t seed = 1;
-  std::string out;  ///< folder for cases that fail; empty: gnomon_stress_seed_N in the folder for temporary files
-  std::vector<std::string> replay;  ///< case files that are checked as random cases are, in their place
+  std::string
+      out;  ///< folder for cases that fail; empty: gnomon_stress_seed_N in the folder for temporary files
+  std::vector<std::string> replay;  ///< case and frame files that are checked as random ones, in their place
+  render::ContextKind context = render::ContextKind::automatic;  ///< of frames
 };
 
 /// Prints counts, times of plans, and a line for each kind of failure. Writes a case file for each kind into

@@ -1,4 +1,5 @@
 // `gnomon stress`: extreme cases and stiff axes, judged.
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <stdexcept>
@@ -14,6 +15,9 @@
 #ifdef GNOMON_STRESS_HAS_FILTERS
 #include "filter_limits.hpp"
 #endif
+#ifdef GNOMON_STRESS_HAS_FRAMES
+#include "stress/frames.hpp"
+#endif
 
 namespace gnomon::tool {
 namespace {
@@ -24,14 +28,15 @@ struct StressRequest {
   std::vector<const stress::Axis*> axes;  ///< none, no cases, no filters: all axes and cases
   bool cases = false;
   bool filters = false;                                          ///< filters at their limits, drawn
-  render::ContextKind context = render::ContextKind::automatic;  ///< of the filters
+  render::ContextKind context = render::ContextKind::automatic;  ///< of the filters and of frames
   int samples = 80;                                              ///< values per axis
   int scenes = 4;                                                ///< per value
   std::uint64_t seed = 1;
   std::string out;  ///< folder for stability.jsonl and stability.csv; empty: none
   bool json = false, csv = false;
   std::uint64_t random = 0;  ///< random cases; above 0: these alone, `out` is the folder for cases that fail
-  std::vector<std::string> replay;  ///< case files that are checked as random cases are, alone
+  std::uint64_t frames = 0;  ///< random frames, likewise; after the random cases where both are wanted
+  std::vector<std::string> replay;  ///< case and frame files that are checked as random ones, alone
 };
 
 std::vector<std::string> axis_names() {
@@ -96,10 +101,26 @@ stress::Results run_all(const StressRequest& request, const std::vector<const st
   return results;
 }
 
+int run_frames(const StressRequest& request) {
+#ifdef GNOMON_STRESS_HAS_FRAMES
+  return run_frame_stress({request.frames, request.seed, request.out, request.context});
+#else
+  static_cast<void>(request);
+  throw std::runtime_error("--frames: this program was built without the renderer, the tracer or the viewer");
+#endif
+}
+
+/// Random cases or case files, and then random frames.
+int run_net(const StressRequest& request) {
+  int failed = 0;
+  if (request.random > 0 || !request.replay.empty())
+    failed = run_random_stress({request.random, request.seed, request.out, request.replay, request.context});
+  return request.frames > 0 ? std::max(failed, run_frames(request)) : failed;
+}
+
 /// Returns 1 where a case fails or a number is not finite, else 0.
 int run_stress(const StressRequest& request) {
-  if (request.random > 0 || !request.replay.empty())
-    return run_random_stress({request.random, request.seed, request.out, request.replay});
+  if (request.random > 0 || !request.replay.empty() || request.frames > 0) return run_net(request);
   const bool everything = request.axes.empty() && !request.cases && !request.filters;
   const std::vector<const stress::Axis*> axes = everything ? all_axes() : request.axes;
   if (!request.out.empty()) make_folder("--out", request.out);
@@ -135,7 +156,7 @@ std::function<int()> declare_stress(Arguments& arguments) {
       {.name = "--filters",
        .target = &request->filters,
        .help = "compare filters at the limits of their formats, shader against double"},
-      context_option(request->context, " of --filters"),
+      context_option(request->context, " of --filters and --frames"),
       {.name = "--samples",
        .target = &request->samples,
        .help = "approximate number of values per stress parameter",
@@ -147,19 +168,23 @@ std::function<int()> declare_stress(Arguments& arguments) {
       // Below the largest that fits: CLI11 takes what does not fit, and what is negative, for that one.
       {.name = "--seed",
        .target = &request->seed,
-       .help = "seed of the random scenes",
+       .help = "seed of the random scenes, cases and frames",
        .range = {{0, static_cast<double>(std::uint64_t{1} << 62)}}},
       {.name = "--out",
        .target = &request->out,
-       .help = "folder for stability.jsonl and stability.csv, or with --random for failing cases",
+       .help = "folder for stability.jsonl and stability.csv, or for cases and frames that fail",
        .completion = Completion::folders},
       {.name = "--random",
        .target = &request->random,
        .help = "check N random cases over all legal input, and nothing else",
        .range = {{1, 1e12}}},
+      {.name = "--frames",
+       .target = &request->frames,
+       .help = "draw N random frames, check masks against exact rays, and nothing else",
+       .range = {{1, 1e9}}},
       {.name = "--replay",
        .target = &request->replay,
-       .help = "check these case files as --random does, and nothing else",
+       .help = "check these files of cases and frames as --random and --frames do, and nothing else",
        .completion = Completion::files},
       {.name = "--json", .target = &request->json, .help = "print a JSON object per row"},
       {.name = "--csv", .target = &request->csv, .help = "print CSV", .excludes = "--json"}};

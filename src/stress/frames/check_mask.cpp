@@ -1,0 +1,260 @@
+// Is each pixel of a mask that is decided what exact geometry says?
+#include "check_mask.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <memory>
+#include <optional>
+#include <sstream>
+
+#include "decided.hpp"
+#include "gnomon/trace/reference.hpp"
+#include "gnomon/trace/transmittance.hpp"
+
+namespace gnomon::stress {
+namespace {
+
+// Weights of up to a few hundred texels, added in float.
+constexpr float kWeights = 1e-4f;
+
+/// What a pixel is held against.
+struct Truth {
+  trace::Tracer tracer;
+  trace::SurfacePoints points;
+  trace::HardReference hard;
+  std::vector<WorldTriangle> triangles;
+
+  explicit Truth(FrameStage& stage)
+      : tracer(stage.opaque(), trace::Engine::own),
+        points(trace::surface_points(tracer, stage.camera(), stage.setting().input.light,
+                                     stage.keeping().positions(), stage.keeping().normals())),
+        hard(trace::hard_reference(tracer, points, stage.setting().input.light)),
+        triangles(world_triangles(stage.opaque(), stage.camera().position)) {}
+};
+
+std::string at(const FrameStage& stage, const Truth& truth, std::size_t pixel) {
+  const glm::dvec3& p = truth.points.pixels[pixel].position;
+  const auto width = static_cast<std::size_t>(stage.camera().width);
+  std::ostringstream text;
+  text.precision(7);
+  text << " at pixel " << pixel % width << ", " << pixel / width << " (" << p.x << ", " << p.y << ", " << p.z
+       << ")";
+  return text.str();
+}
+
+/// How far the filter's look-ups read, texels: the kernel's box, what blurred texels reach, and the four that
+/// are weighed together.
+double reach_of(const FrameSetting& setting, const ShadowMap& map) {
+  const render::FilterInfo& info = setting.filter.filter->info;
+  if (setting.source.kind == render::SourceKind::identifiers) return setting.source.test.neighbours + 0.5;
+  double radius = info.has_kernel ? setting.filter.radius + 0.5 : 0.5;
+  if (info.has_kernel && setting.filter.unit == render::KernelUnit::world)
+    radius = std::min(setting.filter.radius / std::min(map.texel_world.x, map.texel_world.y) * 2.0,
+                      render::kMaxRadiusTexels);
+  return radius + info.lookup_reach_texels + 0.5;
+}
+
+/// The maps or pages of the frame in the space of which pixels are decided, made as they are needed.
+class Spaces {
+ public:
+  Spaces(const FrameStage& stage, const Truth& truth) : stage_(stage), truth_(truth) {}
+  [[nodiscard]] const ShadowMap& map(int index) { return at(index).map; }
+  [[nodiscard]] Must decide(int index, const Receiver3& receiver) {
+    const Entry& entry = at(index);
+    const FrameSetting& setting = stage_.setting();
+    const double reach = reach_of(setting, entry.map);
+    if (setting.source.kind == render::SourceKind::identifiers)
+      return entry.space->decide_identifier(receiver, reach,
+                                            setting.source.test.of == render::IdentifierOf::triangle);
+    return entry.space->decide(receiver, {reach, setting.options.linear_depth, bias()});
+  }
+
+ private:
+  struct Entry {
+    ShadowMap map;
+    std::unique_ptr<MapSpace> space;
+  };
+  [[nodiscard]] const BiasOptions& bias() const {
+    return stage_.by_pages() ? stage_.pages().bias : stage_.maps().bias;
+  }
+  const Entry& at(int index) {
+    Entry& entry = entries_[index];
+    if (entry.space != nullptr) return entry;
+    const auto i = static_cast<std::size_t>(index);
+    entry.map = stage_.by_pages() ? page_map(stage_.pages(), stage_.pages().pages[i]) : stage_.maps().map[i];
+    const ClipSpace& clip = stage_.by_pages() ? stage_.pages().clip_space : stage_.maps().clip_space;
+    entry.space = std::make_unique<MapSpace>(entry.map, clip, stage_.camera().position,
+                                             stage_.setting().input.light, truth_.triangles);
+    return entry;
+  }
+
+  const FrameStage& stage_;
+  const Truth& truth_;
+  std::map<int, Entry> entries_;
+};
+
+Receiver3 receiver_of(const FrameStage& stage, const Truth& truth, const FloatImage& normals,
+                      std::size_t pixel) {
+  const trace::SurfacePoint& p = truth.points.pixels[pixel];
+  const glm::dvec3 seen(normals.values[4 * pixel], normals.values[4 * pixel + 1],
+                        normals.values[4 * pixel + 2]);
+  return {p.position - stage.camera().position, p.normal, p.triangle, glm::length(seen - p.normal),
+          std::abs(p.above)};
+}
+
+/// Other maps than the one that the mask names, which a transition may have read.
+std::vector<int> others_read(const FrameStage& stage, int map, const Receiver3& receiver) {
+  const ShadowPlan& plan = stage.maps();
+  if (stage.setting().options.transition == render::SplitTransition::cut || stage.by_pages() ||
+      plan.selection != MapSelection::view_depth)
+    return {};
+  (void)receiver;
+  std::vector<int> maps;
+  if (map + 1 < plan.map_count && plan.map[static_cast<std::size_t>(map) + 1].overlap > 0.0)
+    maps.push_back(map + 1);
+  return maps;
+}
+
+/// What the mask must be, by all maps that may have been read.
+Must must_be(const FrameStage& stage, Spaces& spaces, int map, const Receiver3& receiver) {
+  const Must must = spaces.decide(map, receiver);
+  for (const int other : others_read(stage, map, receiver)) {
+    if (must == Must::undecided || spaces.decide(other, receiver) != must) return Must::undecided;
+  }
+  return must;
+}
+
+/// Which answers the source and the filter promise.
+struct Promises {
+  bool lit = false, dark = false;
+};
+Promises promises_of(const FrameSetting& setting) {
+  // Every layer stores the first surface or one behind it; rules that are bounded may omit casters.
+  const bool front = setting.options.depth_layer == render::DepthLayer::front;
+  const bool all_drawn = !setting.options.prune.has(PruneRule::small_casters);
+  switch (setting.source.kind) {
+    case render::SourceKind::irregular:
+      return {};
+    case render::SourceKind::identifiers:
+      return {true, all_drawn};
+    default:
+      break;
+  }
+  if (setting.filter.filter->info.reads != render::MapRead::depth || setting.filter.contacts) return {};
+  // Rays that are marched may pass between casters of different depths.
+  return {true, front && all_drawn && setting.filter.filter != &render::filters::smrt};
+}
+
+/// Casters near a local light may have been given up, which the plan says.
+bool gives_up_casters(const FrameStage& stage) {
+  const std::span<const Omission> omitted =
+      stage.by_pages() ? stage.pages().omitted() : stage.maps().omitted();
+  return std::any_of(omitted.begin(), omitted.end(), [](const Omission& o) {
+    return o.kind == OmissionKind::depth_near_light || o.kind == OmissionKind::receiver_near_light;
+  });
+}
+
+void check_pixel(FrameStage& stage, const Truth& truth, Spaces& spaces, const FloatImage& normals,
+                 std::size_t pixel, float visibility, int map, FrameReport& report) {
+  const trace::Verdict hard = truth.hard.pixels[pixel];
+  if (map < 0) {
+    ++report.counts().unserved;
+    if (visibility < 1.0f - kWeights || (hard == trace::Verdict::shadow && !gives_up_casters(stage)))
+      report.add(
+          "unserved_in_shadow", 1.0,
+          "no map serves the surface; the mask is " + std::to_string(visibility) + at(stage, truth, pixel));
+    return;
+  }
+  const Promises promised = promises_of(stage.setting());
+  if (!promised.lit && !promised.dark) return;
+  const Must must = must_be(stage, spaces, map, receiver_of(stage, truth, normals, pixel));
+  if (must == Must::lit && promised.lit) {
+    ++report.counts().lit;
+    if (!(visibility >= 1.0f - kWeights))
+      report.add("mask_dark", 1.0 - static_cast<double>(visibility),
+                 "nothing is before the surface; the mask is " + std::to_string(visibility) + ", map " +
+                     std::to_string(map) + at(stage, truth, pixel));
+  }
+  if (must == Must::dark && promised.dark && !gives_up_casters(stage)) {
+    ++report.counts().dark;
+    if (!(visibility <= kWeights))
+      report.add("mask_lit", static_cast<double>(visibility),
+                 "casters cover the surface; the mask is " + std::to_string(visibility) + ", map " +
+                     std::to_string(map) + at(stage, truth, pixel));
+  }
+}
+
+/// One sample by lists: each pixel that rays decide.
+void check_exact(FrameStage& stage, const Truth& truth, const FloatImage& mask, FrameReport& report) {
+  for (std::size_t i = 0; i < truth.hard.pixels.size(); ++i) {
+    const trace::Verdict hard = truth.hard.pixels[i];
+    if (hard != trace::Verdict::lit && hard != trace::Verdict::shadow) continue;
+    ++report.counts().exact;
+    const bool lit = mask.values[2 * i] > 0.5f;
+    if (lit != (hard == trace::Verdict::lit))
+      report.add(
+          "exact_mask_wrong", 1.0,
+          std::string(lit ? "lit by lists, dark" : "dark by lists, lit") + " by rays" + at(stage, truth, i));
+  }
+}
+
+/// The light that panes leave. A pixel counts where four rays beside its own, at the engine's error, agree.
+void check_panes(FrameStage& stage, const Truth& truth, FrameReport& report) {
+  constexpr double kAbsorbance = 2e-3;  // in whole steps, and exponents of them
+  const trace::PaneTracer panes(stage.panes());
+  const Light& light = stage.setting().input.light;
+  const FloatImage found = stage.keeping().transmittance();
+  const trace::PaneReference middle = trace::pane_reference(panes, truth.points, light);
+  std::vector<trace::PaneReference> round;
+  const double off = 4.0 * truth.tracer.error_world(100.0 * stage.setting().scale);
+  for (const glm::dvec3& by :
+       {glm::dvec3(off, 0, 0), {-off, 0, 0}, {0, off, 0}, {0, -off, 0}, {0, 0, off}, {0, 0, -off}}) {
+    trace::SurfacePoints moved = truth.points;
+    for (trace::SurfacePoint& p : moved.pixels) p.position += by;
+    round.push_back(trace::pane_reference(panes, moved, light));
+  }
+  for (std::size_t i = 0; i < middle.pixels.size(); ++i) {
+    if (truth.hard.pixels[i] != trace::Verdict::lit) continue;
+    const bool sure = std::all_of(round.begin(), round.end(), [&](const trace::PaneReference& r) {
+      return r.pixels[i] == middle.pixels[i];
+    });
+    if (!sure) continue;
+    ++report.counts().panes;
+    for (int c = 0; c < 3; ++c) {
+      const double apart = std::abs(found.values[3 * i + static_cast<std::size_t>(c)] - middle.pixels[i][c]);
+      if (!(apart <= kAbsorbance))
+        report.add("pane_light_wrong", apart,
+                   "panes leave " + std::to_string(middle.pixels[i][c]) + " by rays, drawn " +
+                       std::to_string(found.values[3 * i + static_cast<std::size_t>(c)]) +
+                       at(stage, truth, i));
+    }
+  }
+}
+
+}  // namespace
+
+void check_mask(FrameStage& stage, FrameReport& report) {
+  const Truth truth(stage);
+  const FloatImage mask = stage.keeping().mask(), normals = stage.keeping().normals();
+  const bool exact = stage.setting().source.kind == render::SourceKind::irregular;
+  Spaces spaces(stage, truth);
+  for (std::size_t i = 0; i < truth.points.pixels.size(); ++i) {
+    const float visibility = mask.values[2 * i];
+    if (!(visibility >= 0.0f && visibility <= 1.0f + kWeights))
+      report.add("mask_not_in_unit", std::abs(static_cast<double>(visibility)),
+                 "the mask is " + std::to_string(visibility) + at(stage, truth, i));
+    if (truth.points.pixels[i].state != trace::PixelState::facing) continue;
+    ++report.counts().pixels;
+    if (!exact)
+      check_pixel(stage, truth, spaces, normals, i, visibility, static_cast<int>(mask.values[2 * i + 1]),
+                  report);
+  }
+  if (exact && stage.setting().source.samples == 1) check_exact(stage, truth, mask, report);
+  if (exact && stage.setting().source.samples == 1 && !stage.panes().instances.empty())
+    check_panes(stage, truth, report);
+}
+
+}  // namespace gnomon::stress
