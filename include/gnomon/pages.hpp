@@ -84,7 +84,7 @@ struct PageOptions {
   /// gives levels whose texels and pages stay at the same place in the world under camera motion, so that
   /// pages can be cached. Any other fit one map round the visible receivers. `warp.warp` warps that base;
   /// none is the default here, as levels already follow the view. `filter` sets the border. resolution,
-  /// split, cascades and cadence have no effect.
+  /// split, cascades, cadence and `warp.shape` have no effect.
   PlanOptions plan;
   const PagePolicy* policy = nullptr;  ///< nullptr: page_policies::resolution
   /// Texels along each side that a page serves: 64, 128 or 256. Smaller pages follow the visible surfaces

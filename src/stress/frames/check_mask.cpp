@@ -65,11 +65,11 @@ class Spaces {
   [[nodiscard]] Must decide(int index, const Receiver3& receiver) {
     const Entry& entry = at(index);
     const FrameSetting& setting = stage_.setting();
-    const double reach = reach_of(setting, entry.map);
+    const Comparing comparing{reach_of(setting, entry.map), setting.options.linear_depth, bias()};
     if (setting.source.kind == render::SourceKind::identifiers)
-      return entry.space->decide_identifier(receiver, reach,
+      return entry.space->decide_identifier(receiver, comparing,
                                             setting.source.test.of == render::IdentifierOf::triangle);
-    return entry.space->decide(receiver, {reach, setting.options.linear_depth, bias()});
+    return entry.space->decide(receiver, comparing);
   }
 
  private:

@@ -233,17 +233,22 @@ bool MapSpace::all_centres_dark(const Receiver3& r, const Look& look,
   });
 }
 
+double MapSpace::moved_by_offset(const Receiver3& r, const BiasOptions& bias) const {
+  const glm::dvec3 point = r.point + eye_;
+  const glm::dvec2 extent =
+      texel_extent_world(map_.clip_from_world, map_.texels(), travel_at(light_, point), point);
+  const double texels =
+      bias.normal_offset_texels * std::max(extent.x, extent.y) / std::min(extent.x, extent.y);
+  return std::isfinite(texels) ? texels : kInfinite;
+}
+
 Must MapSpace::decide(const Receiver3& r, const Comparing& comparing) const {
   const BiasOptions& bias = comparing.bias;
   Look look;
-  // The offset along the normal moves the place, too.
-  const auto& extent = texel_extent_world(map_.clip_from_world, map_.texels(),
-                                          travel_at(light_, r.point + eye_), r.point + eye_);
-  const double least = std::min(extent.x, extent.y), most = std::max(extent.x, extent.y);
-  if (!(least > 0.0) || !std::isfinite(most)) return Must::undecided;
-  if (!look_at(r, comparing.reach_texels + bias.normal_offset_texels * most / least, look))
-    return Must::undecided;
+  const double moved = moved_by_offset(r, bias);
+  if (!look_at(r, comparing.reach_texels + moved, look)) return Must::undecided;
 
+  const double most = std::max(look.texel_world.x, look.texel_world.y);
   const double tangent = look.sine / look.cosine, capped = std::min(tangent, bias.max_slope);
   const double rounding = depth_rounding(r, look, comparing.linear_depth);
   const double reach_world = comparing.reach_texels * most;
@@ -271,9 +276,9 @@ Must MapSpace::decide(const Receiver3& r, const Comparing& comparing) const {
   return !before.empty() && all_centres_dark(r, look, before, height) ? Must::dark : Must::undecided;
 }
 
-Must MapSpace::decide_identifier(const Receiver3& r, double reach_texels, bool by_triangle) const {
+Must MapSpace::decide_identifier(const Receiver3& r, const Comparing& comparing, bool by_triangle) const {
   Look look;
-  if (!look_at(r, reach_texels, look)) return Must::undecided;
+  if (!look_at(r, comparing.reach_texels + moved_by_offset(r, comparing.bias), look)) return Must::undecided;
   const double most = std::max(look.texel_world.x, look.texel_world.y);
   const double rounding = 2.0 * (depth_rounding(r, look, false) + 2.0 * look.snap * most * look.sine);
   const WorldTriangle& own = triangles_[r.triangle];

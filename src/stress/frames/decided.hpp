@@ -59,8 +59,9 @@ class MapSpace {
 
   /// For sources that compare depths.
   [[nodiscard]] Must decide(const Receiver3& receiver, const Comparing& comparing) const;
-  /// For sources that compare identifiers: `by_triangle`: each triangle has its own.
-  [[nodiscard]] Must decide_identifier(const Receiver3& receiver, double reach_texels,
+  /// For sources that compare identifiers, of which only the offset along the normal is a bias.
+  /// `by_triangle`: each triangle has its own.
+  [[nodiscard]] Must decide_identifier(const Receiver3& receiver, const Comparing& comparing,
                                        bool by_triangle) const;
 
  private:
@@ -78,6 +79,8 @@ class MapSpace {
   struct Look;
   using Polygon = std::vector<Corner>;
 
+  /// Texels that the offset along the normal may move a look-up.
+  [[nodiscard]] double moved_by_offset(const Receiver3& receiver, const BiasOptions& bias) const;
   [[nodiscard]] bool look_at(const Receiver3& receiver, double reach_texels, Look& look) const;
   [[nodiscard]] std::vector<std::uint32_t> near(const Rectangle& ndc) const;
   void part(std::uint32_t triangle, const Receiver3& receiver, const Rectangle& ndc, Polygon& out) const;
