@@ -16,7 +16,7 @@ import time
 # The pinned hash of all plans would notice any change of a bit, and say nothing of what the other tests are worth.
 NOT_THE_HASH = "--gtest_filter=-PlanHash.*"
 DRAWN = ["filter_fit_test", "render_pages_test", "render_animation_test", "prune_test", "render_irregular_test", "render_layers_test", "render_panes_test",
-         "render_lights_test", "render_test"]
+         "render_lights_test", "render_test", "stress_frames_test"]
 SUITES = {  # the quick ones first
     "src/core/": ["core_tests", "core_golden_tests", "core_extreme_tests", "core_laws_tests"],
     "src/scene/": ["load_gltf_test", "gltf_refusal_test", "gltf_confinement_test", "gltf_skin_test", "animation_test",
@@ -27,6 +27,8 @@ SUITES = {  # the quick ones first
     "src/trace/": ["trace_test", "trace_scenes_test"],
     "src/render/": DRAWN,
     "shaders/": DRAWN,
+    "src/stress/frames/": ["stress_frames_test"],
+    "src/stress/random/": ["stress_random_test"],
     "src/tool/calibrate/": ["compare_test"],
     "src/tool/compare/": ["flips_law_test", "compare_test"],
     "src/tool/fly/": ["fly_test", "flythrough_test"],
@@ -39,6 +41,7 @@ PARTS = {
     "src/trace/": ["TRACE"],
     "src/render/": ["RENDER", "TRACE"],
     "shaders/": ["RENDER", "TRACE"],
+    "src/stress/frames/": ["RENDER", "TRACE"],
     "src/tool/calibrate/": ["RENDER", "TRACE", "REPORT", "TOOL"],
     "src/tool/compare/": ["RENDER", "TRACE", "REPORT", "TOOL"],
     "src/tool/fly/": ["RENDER", "TRACE", "REPORT", "TOOL"],

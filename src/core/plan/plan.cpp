@@ -30,7 +30,8 @@ struct VisibleReceivers {
     const auto receive = [&](Polytope& part) {
       clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
     };
-    receive(body);
+    // Of several views each part is cut to them already: another cut might lose a thin one to rounding.
+    if (c.views.empty()) receive(body);
     if (body.empty()) return;
     depths = depths_of(body, c.axes.forward);
     if (!cut_from_afar(c, c.camera.far_depth, depths.end)) return;

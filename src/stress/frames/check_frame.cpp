@@ -119,7 +119,9 @@ void check_anew(FrameStage& stage, FrameReport& report) {
     expect_equal(stage.keeping().mask().values, anew->mask().values, "moved_renderer_differs", "mask",
                  report);
   // A page that is drawn by itself is drawn in its slot, and rounds as it lies there.
-  const bool in_slots = stage.by_pages() && stage.setting().options.map_passes == render::MapPasses::each;
+  const render::FrameOptions& options = stage.setting().options;
+  const bool in_slots = stage.by_pages() && (options.map_passes == render::MapPasses::each ||
+                                             render::info_of(options.depth_layer).peels);
   if (!in_slots) compare_depths(stage, *anew, "moved_renderer_differs", report);
 }
 

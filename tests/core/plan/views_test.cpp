@@ -13,6 +13,7 @@
 
 #include "gnomon/gnomon.hpp"
 #include "support/finite.hpp"
+#include "support/float_traps.hpp"
 #include "support/near.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
@@ -283,6 +284,80 @@ TEST(Views, every_receiver_that_any_camera_sees_is_in_a_map_within_its_error) {
   EXPECT_GT(held, 3000);
   EXPECT_GT(own, 1000);
   EXPECT_GT(lit, 0);
+}
+
+/// A camera without a twin and one beside it, over a single receiver: what random cases found.
+struct Beside {
+  Camera camera;
+  Light light;
+  Box receiver, caster;
+  bool third = false;  ///< beside the second, and looking aside
+  double apart = 1e-3;
+
+  [[nodiscard]] ShadowPlan plan() const {
+    const CameraAxes axes = camera_axes(camera);
+    std::vector<Camera> cameras{camera, camera};
+    cameras[1].position += apart * axes.right;
+    if (third) {
+      cameras.push_back(cameras[1]);
+      cameras[2].forward = axes.right;
+      cameras[2].up = axes.up;
+    }
+    ShadowPlan found;
+    EXPECT_TRUE(runs_without_trap([&] {
+      found = plan_views(cameras, light, {{&caster, 1}, {&receiver, 1}});
+    }));
+    EXPECT_EQ(found.status, PlanStatus::ok);
+    EXPECT_TRUE(all_finite(found));
+    return found;
+  }
+};
+
+TEST(Views, images_that_lie_wholly_at_a_steep_angle_are_planned) {
+  Beside steep;
+  steep.camera =
+      Camera{{0, 20000, 0}, {0, 0, 1}, {0, 1, 0}, false, 0.0, 1.0, -300.0, -50.0, 1.0, 10000.0, 1, 1};
+  steep.light = SpotLight{{0, 20000, 0}, {0, -1, 0}, kDegree, 60000.0};
+  steep.receiver = {{0, 0, 0}, {0, 0, 40000}};
+  steep.caster = {{0, 0, 0}, {0, 0, 4000}};
+  steep.apart = 10.0;
+  EXPECT_GT(steep.plan().map_count, 0);
+}
+
+TEST(Views, a_hull_that_goes_behind_its_warp_has_finite_texels) {
+  Beside wide;
+  wide.camera = Camera{{20, -3, 29.32}, {0, 1, 1}, {0, 1, 0}, false, -2.0, 1.0, -0.7, 0.0, 0.04, 1.0, 1, 1};
+  wide.light = SpotLight{{20.42, -3, 29.4}, {0, 1, 0.6}, 176.1 * kDegree, 1.0};
+  wide.receiver = {{0, -4, 0}, {50, 0, 60}};
+  wide.caster = {{0, -3, 0}, {20.46, 0, 30}};
+  wide.third = true;
+  wide.apart = 0.04;
+  for (const ShadowMap& map : wide.plan().maps())
+    EXPECT_TRUE(std::isfinite(map.texel_world.x)) << map.cascade;
+}
+
+TEST(Views, a_receiver_that_is_a_point_is_not_lost_to_rounding) {
+  Beside point;
+  point.camera = perspective_camera({-6.5281676375300295, -2.216, -26.48}, {1, 0.97, 1}, {1, 0, 0},
+                                    130 * kDegree, 0.7, 0.0002, 23.89, 1, 1);
+  point.light = DirectionalLight{{-0.7, 0, 1}};
+  const glm::dvec3 at{-6.522584290497505, -2.1951858068737615, -26.472866588919157};
+  point.receiver = {at, at};
+  point.caster = {at + glm::dvec3(0.7, 0, -1), at + glm::dvec3(0.7, 0, -1)};
+  point.apart = 0.02389;
+  EXPECT_GT(point.plan().map_count, 0);
+}
+
+TEST(Views, one_camera_with_a_partition_has_the_plan_of_one_without) {
+  Street street;
+  const std::array<Camera, 1> camera{street.camera(0)};
+  const ShadowPlan plain = street.plan(camera);
+  street.options.split.partition = Partition::separating_plane;
+  const ShadowPlan parted = street.plan(camera);
+  ASSERT_EQ(parted.map_count, plain.map_count);
+  for (int i = 0; i < plain.map_count; ++i)
+    EXPECT_EQ(parted.map[static_cast<std::size_t>(i)].clip_from_world,
+              plain.map[static_cast<std::size_t>(i)].clip_from_world);
 }
 
 }  // namespace

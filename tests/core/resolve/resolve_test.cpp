@@ -315,6 +315,11 @@ TEST(Resolve, pages_and_lights_have_their_own) {
   EXPECT_EQ(pages.options.fit, Fit::stable);
   EXPECT_EQ(pages.options.warp.warp, &warps::none);
   EXPECT_FALSE(pages.options.warp.has_planes());
+  EXPECT_FALSE(lists(pages.ignored.entries(), ignored(IgnoredOption::shape)));
+  in.options.warp.shape = &shapes::paraboloid;
+  const ResolvedPages bent = resolve_pages(in.options, false, 1024, 3.0);
+  EXPECT_TRUE(lists(bent.ignored.entries(), ignored(IgnoredOption::shape)));
+  EXPECT_EQ(bent.options.warp.shape, &shapes::linear);
   const PlanOptions lights = resolve_lights(in.options, 256);
   EXPECT_EQ(lights.resolution.max_size, 256);
   EXPECT_EQ(lights.resolution.max_error, 0.0);
