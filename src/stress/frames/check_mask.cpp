@@ -69,6 +69,9 @@ class Spaces {
     if (setting.source.kind == render::SourceKind::identifiers)
       return entry.space->decide_identifier(receiver, comparing,
                                             setting.source.test.of == render::IdentifierOf::triangle);
+    const render::Filter& filter = *setting.filter.filter;
+    if (filter.info.reads != render::MapRead::depth)
+      return entry.space->decide_even(receiver, comparing, filter.reference.contact);
     return entry.space->decide(receiver, comparing);
   }
 
@@ -130,6 +133,7 @@ Must must_be(const FrameStage& stage, Spaces& spaces, int map, const Receiver3& 
 /// Which answers the source and the filter promise.
 struct Promises {
   bool lit = false, dark = false;
+  float tolerance = kWeights;
 };
 Promises promises_of(const FrameSetting& setting) {
   // Every layer stores the first surface or one behind it; rules that are bounded may omit casters.
@@ -143,9 +147,12 @@ Promises promises_of(const FrameSetting& setting) {
     default:
       break;
   }
-  if (setting.filter.filter->info.reads != render::MapRead::depth || setting.filter.contacts) return {};
+  if (setting.filter.contacts) return {};
   // Rays that are marched may pass between casters of different depths.
-  return {true, front && all_drawn && setting.filter.filter != &render::filters::smrt};
+  const render::Filter& filter = *setting.filter.filter;
+  const bool stored = filter.info.reads != render::MapRead::depth;
+  const double off = stored ? filter.reference.tolerance : 0.0;
+  return {front || !stored, front && all_drawn && &filter != &render::filters::smrt, kWeights + static_cast<float>(off)};
 }
 
 /// Casters near a local light may have been given up, which the plan says.
@@ -173,14 +180,14 @@ void check_pixel(FrameStage& stage, const Truth& truth, Spaces& spaces, const Fl
   const Must must = must_be(stage, spaces, map, receiver_of(stage, truth, normals, pixel));
   if (must == Must::lit && promised.lit) {
     ++report.counts().lit;
-    if (!(visibility >= 1.0f - kWeights))
+    if (!(visibility >= 1.0f - promised.tolerance))
       report.add("mask_dark", 1.0 - static_cast<double>(visibility),
                  "nothing is before the surface; the mask is " + std::to_string(visibility) + ", map " +
                      std::to_string(map) + at(stage, truth, pixel));
   }
   if (must == Must::dark && promised.dark && !gives_up_casters(stage)) {
     ++report.counts().dark;
-    if (!(visibility <= kWeights))
+    if (!(visibility <= promised.tolerance))
       report.add("mask_lit", static_cast<double>(visibility),
                  "casters cover the surface; the mask is " + std::to_string(visibility) + ", map " +
                      std::to_string(map) + at(stage, truth, pixel));

@@ -276,6 +276,37 @@ Must MapSpace::decide(const Receiver3& r, const Comparing& comparing) const {
   return !before.empty() && all_centres_dark(r, look, before, height) ? Must::dark : Must::undecided;
 }
 
+Must MapSpace::decide_even(const Receiver3& r, const Comparing& comparing, double contact) const {
+  Look look;
+  if (map_.light_world.w != 0.0 || map_.kappa != 0.0 || !look_at(r, comparing.reach_texels, look))
+    return Must::undecided;
+  constexpr double kParallel = 1e-6;
+  if (!(look.sine < kParallel)) return Must::undecided;
+  const double reach_world = comparing.reach_texels * std::max(look.texel_world.x, look.texel_world.y);
+  const double even = kParallel * (map_.depth_range_world + reach_world);
+  // The nearest of those that cover all of it, and the highest part of any other.
+  double nearest = 0.0, highest = -kInfinite;
+  Polygon polygon;
+  for (const std::uint32_t t : near(look.ndc)) {
+    part(t, r, look.ndc, polygon);
+    if (polygon.empty()) continue;
+    double low = kInfinite, high = -kInfinite;
+    for (const Corner& c : polygon) {
+      low = std::min(low, c.height);
+      high = std::max(high, c.height);
+    }
+    const bool whole =
+        !triangles_[t].masked && high - low <= even && covers(t, r, look.ndc, -kInfinite) && low >= -even;
+    if (whole && high > nearest - even) nearest = std::max(nearest, high);
+    if (!whole) highest = std::max(highest, high);
+  }
+  const bool own = covers(r.triangle, r, look.ndc, -kInfinite) && !triangles_[r.triangle].masked;
+  if (highest > nearest + even) return Must::undecided;
+  if (nearest <= even) return own ? Must::lit : Must::undecided;
+  constexpr double kRoom = 1.05;
+  return nearest > kRoom * contact * map_.depth_range_world + 4.0 * even ? Must::dark : Must::undecided;
+}
+
 Must MapSpace::decide_identifier(const Receiver3& r, const Comparing& comparing, bool by_triangle) const {
   Look look;
   if (!look_at(r, comparing.reach_texels + moved_by_offset(r, comparing.bias), look)) return Must::undecided;

@@ -308,7 +308,10 @@ struct Beside {
       found = plan_views(cameras, light, {{&caster, 1}, {&receiver, 1}});
     }));
     EXPECT_EQ(found.status, PlanStatus::ok);
-    EXPECT_TRUE(all_finite(found));
+    for (const ShadowMap& map : found.maps()) {
+      EXPECT_TRUE(all_finite(map.clip_from_world));
+      EXPECT_TRUE(std::isfinite(map.m_max) && std::isfinite(map.bias_world.constant));
+    }
     return found;
   }
 };
