@@ -152,7 +152,8 @@ Promises promises_of(const FrameSetting& setting) {
   const render::Filter& filter = *setting.filter.filter;
   const bool stored = filter.info.reads != render::MapRead::depth;
   const double off = stored ? filter.reference.tolerance : 0.0;
-  return {front || !stored, front && all_drawn && &filter != &render::filters::smrt, kWeights + static_cast<float>(off)};
+  return {front || !stored, front && all_drawn && &filter != &render::filters::smrt,
+          kWeights + static_cast<float>(off)};
 }
 
 /// Casters near a local light may have been given up, which the plan says.

@@ -59,8 +59,9 @@ class MapSpace {
 
   /// For sources that compare depths.
   [[nodiscard]] Must decide(const Receiver3& receiver, const Comparing& comparing) const;
-  /// For filters that store texels: only where a whole map is parallel to the light's wavefront, and all of the
-  /// look-up's texels hold one depth, the receiver's own, or one at least `contact` of the map's depths before it.
+  /// For filters that store texels: only where a whole map is parallel to the light's wavefront, and all of
+  /// the look-up's texels hold one depth, the receiver's own, or one at least `contact` of the map's depths
+  /// before it.
   [[nodiscard]] Must decide_even(const Receiver3& receiver, const Comparing& comparing, double contact) const;
   /// For sources that compare identifiers, of which only the offset along the normal is a bias.
   /// `by_triangle`: each triangle has its own.

@@ -210,6 +210,8 @@ void check_matrices(const Scene& s, int index, const Real3& p, Report& report) {
     for (int c = 0; c < 3; ++c)
       error[row] += (kFloat * std::abs(floats[c][row]) + kLeastFloat) * std::abs(p[c]);
   }
+  // Depths from 0 on are half of what OpenGL's rows for z and w have, with the rounding of both.
+  if (s.plan.clip_space.ndc_depth == NdcDepth::zero_to_one) error.z += 0.5L * s.maps[k].world_error(p).w;
   if (!(world.w > 2.0L * error.w)) return;  // no quotient of which anything is known
   for (int row = 0; row < 3; ++row) {
     const Real a = world[row] / world.w, b = relative[row] / relative.w;
