@@ -165,12 +165,21 @@ bool gives_up_casters(const FrameStage& stage) {
   });
 }
 
+/// A pool of many lights draws no map whose shape bends lines: the renderer counts it as none.
+bool draws_no_bent_maps(const FrameStage& stage) {
+  const std::span<const ShadowMap> maps =
+      stage.by_pages() ? std::span<const ShadowMap>{} : stage.maps().maps();
+  return stage.setting().source.kind == render::SourceKind::lights &&
+         std::any_of(maps.begin(), maps.end(), [](const ShadowMap& map) { return !map.shape->affine; });
+}
+
 void check_pixel(FrameStage& stage, const Truth& truth, Spaces& spaces, const FloatImage& normals,
                  std::size_t pixel, float visibility, int map, FrameReport& report) {
   const trace::Verdict hard = truth.hard.pixels[pixel];
   if (map < 0) {
     ++report.counts().unserved;
-    if (visibility < 1.0f - kWeights || (hard == trace::Verdict::shadow && !gives_up_casters(stage)))
+    const bool may_be_dark = gives_up_casters(stage) || draws_no_bent_maps(stage);
+    if (visibility < 1.0f - kWeights || (hard == trace::Verdict::shadow && !may_be_dark))
       report.add(
           "unserved_in_shadow", 1.0,
           "no map serves the surface; the mask is " + std::to_string(visibility) + at(stage, truth, pixel));
