@@ -45,11 +45,19 @@ std::string at(const FrameStage& stage, const Truth& truth, std::size_t pixel) {
   return text.str();
 }
 
+/// Whether a map's shape bends lines. A pool of many lights then counts it as none, and identifiers are drawn
+/// from depths.
+bool bends_lines(const FrameStage& stage) {
+  if (stage.by_pages()) return false;
+  const std::span<const ShadowMap> maps = stage.maps().maps();
+  return std::any_of(maps.begin(), maps.end(), [](const ShadowMap& map) { return !map.shape->affine; });
+}
+
 /// How far the filter's look-ups read, texels: the kernel's box, what blurred texels reach, and the four that
 /// are weighed together.
-double reach_of(const FrameSetting& setting, const ShadowMap& map) {
+double reach_of(const FrameSetting& setting, const ShadowMap& map, bool by_identifiers) {
   const render::FilterInfo& info = setting.filter.filter->info;
-  if (setting.source.kind == render::SourceKind::identifiers) return setting.source.test.neighbours + 0.5;
+  if (by_identifiers) return setting.source.test.neighbours + 0.5;
   double radius = info.has_kernel ? setting.filter.radius + 0.5 : 0.5;
   if (info.has_kernel && setting.filter.unit == render::KernelUnit::world)
     radius = std::min(setting.filter.radius / std::min(map.texel_world.x, map.texel_world.y) * 2.0,
@@ -65,8 +73,11 @@ class Spaces {
   [[nodiscard]] Must decide(int index, const Receiver3& receiver) {
     const Entry& entry = at(index);
     const FrameSetting& setting = stage_.setting();
-    const Comparing comparing{reach_of(setting, entry.map), setting.options.linear_depth, bias()};
-    if (setting.source.kind == render::SourceKind::identifiers)
+    const bool by_identifiers =
+        setting.source.kind == render::SourceKind::identifiers && !bends_lines(stage_);
+    const Comparing comparing{reach_of(setting, entry.map, by_identifiers), setting.options.linear_depth,
+                              bias()};
+    if (by_identifiers)
       return entry.space->decide_identifier(receiver, comparing,
                                             setting.source.test.of == render::IdentifierOf::triangle);
     const render::Filter& filter = *setting.filter.filter;
@@ -135,7 +146,7 @@ struct Promises {
   bool lit = false, dark = false;
   float tolerance = kWeights;
 };
-Promises promises_of(const FrameSetting& setting) {
+Promises promises_of(const FrameSetting& setting, bool bent) {
   // Every layer stores the first surface or one behind it; rules that are bounded may omit casters.
   const bool front = setting.options.depth_layer == render::DepthLayer::front;
   const bool all_drawn = !setting.options.prune.has(PruneRule::small_casters);
@@ -143,7 +154,8 @@ Promises promises_of(const FrameSetting& setting) {
     case render::SourceKind::irregular:
       return {};
     case render::SourceKind::identifiers:
-      return {true, all_drawn};
+      if (!bent) return {true, all_drawn};
+      break;
     default:
       break;
   }
@@ -165,27 +177,21 @@ bool gives_up_casters(const FrameStage& stage) {
   });
 }
 
-/// A pool of many lights draws no map whose shape bends lines: the renderer counts it as none.
-bool draws_no_bent_maps(const FrameStage& stage) {
-  const std::span<const ShadowMap> maps =
-      stage.by_pages() ? std::span<const ShadowMap>{} : stage.maps().maps();
-  return stage.setting().source.kind == render::SourceKind::lights &&
-         std::any_of(maps.begin(), maps.end(), [](const ShadowMap& map) { return !map.shape->affine; });
-}
-
 void check_pixel(FrameStage& stage, const Truth& truth, Spaces& spaces, const FloatImage& normals,
                  std::size_t pixel, float visibility, int map, FrameReport& report) {
   const trace::Verdict hard = truth.hard.pixels[pixel];
   if (map < 0) {
     ++report.counts().unserved;
-    const bool may_be_dark = gives_up_casters(stage) || draws_no_bent_maps(stage);
+    const bool may_be_dark =
+        gives_up_casters(stage) ||
+        (stage.setting().source.kind == render::SourceKind::lights && bends_lines(stage));
     if (visibility < 1.0f - kWeights || (hard == trace::Verdict::shadow && !may_be_dark))
       report.add(
           "unserved_in_shadow", 1.0,
           "no map serves the surface; the mask is " + std::to_string(visibility) + at(stage, truth, pixel));
     return;
   }
-  const Promises promised = promises_of(stage.setting());
+  const Promises promised = promises_of(stage.setting(), bends_lines(stage));
   if (!promised.lit && !promised.dark) return;
   const Must must = must_be(stage, spaces, map, receiver_of(stage, truth, normals, pixel));
   if (must == Must::lit && promised.lit) {
