@@ -335,8 +335,8 @@ TEST(Views, a_hull_that_goes_behind_its_warp_has_finite_texels) {
   wide.caster = {{0, -3, 0}, {20.46, 0, 30}};
   wide.third = true;
   wide.apart = 0.04;
-  for (const ShadowMap& map : wide.plan().maps())
-    EXPECT_TRUE(std::isfinite(map.texel_world.x)) << map.cascade;
+  const ShadowPlan plan = wide.plan();
+  for (const ShadowMap& map : plan.maps()) EXPECT_TRUE(std::isfinite(map.texel_world.x)) << map.cascade;
 }
 
 TEST(Views, a_receiver_that_is_a_point_is_not_lost_to_rounding) {
