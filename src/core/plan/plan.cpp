@@ -124,7 +124,12 @@ PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const Re
 void forget_other_options(const PlanOptions& options, PlanHistory& history) noexcept {
   if (options == history.options) return;
   for (PlanHistory::KeptMap& kept : history.kept) kept.frame = -1;
-  for (PlanHistory::Map& map : history.map) map.searched.until = -1;
+  // A map of another warp is no start: who asks for none counts on depths that are not divided by w.
+  const bool other_warp = options.warp.warp != history.options.warp.warp;
+  for (PlanHistory::Map& map : history.map) {
+    map.searched.until = -1;
+    if (other_warp) map.frame = -1;
+  }
   history.searched_edges.until = -1;
   history.options = options;
 }

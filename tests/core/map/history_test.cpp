@@ -71,6 +71,26 @@ TEST(PlanHistory, searches_from_nothing_after_a_while_and_under_other_options) {
   EXPECT_GT(history.map[0].searched.until, second) << "another objective has another best warp";
 }
 
+TEST(PlanHistory, no_map_of_a_warp_is_kept_under_none) {
+  const Camera camera =
+      perspective_camera({0, 5, 0}, {0, -0.3, -1}, {0, 1, 0}, 1.0, 1.6, 0.5, 200.0, 640, 400);
+  const std::vector<Box> boxes = {{{-100, -1, -100}, {100, 0, 100}}, {{-5, 0, -30}, {5, 8, -20}}};
+  for (const Fit fit : {Fit::tight, Fit::rotated, Fit::warped_stable}) {
+    PlanOptions options;
+    options.cascades = 1;
+    options.fit = fit;
+    PlanHistory history;
+    const auto kappa = [&] {
+      return make_plan(camera, DirectionalLight{{0.3, -1, 0.2}}, {boxes, boxes}, options, &history)
+          .map[0]
+          .kappa;
+    };
+    EXPECT_GT(kappa(), 0.0) << to_string(fit) << ": the case that this is about";
+    options.warp.warp = &warps::none;
+    EXPECT_EQ(kappa(), 0.0) << to_string(fit);
+  }
+}
+
 double fall_off_angle = 0.0;  // radians, in the light plane
 
 /// In the place of a warp: falls off towards an angle, and is always worth following.
