@@ -14,6 +14,7 @@ namespace gnomon {
 /// Points that stand for what a camera sees, relative to it: each for an equal share of the image.
 struct SeenPoints {
   static constexpr std::size_t kMost = 128;
+  static constexpr std::size_t kFewest = 6;  // fewer are no picture: all may be seen
   std::array<glm::dvec3, kMost> point;
   std::size_t count = 0;
   [[nodiscard]] std::span<const glm::dvec3> points() const noexcept { return {point.data(), count}; }

@@ -317,10 +317,9 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
     receiver = {frame.turned(request.receiver->normal), request.receiver->offset};
     in.receiver = &receiver;
   }
-  // Fewer points are no picture: the whole body may be seen.
-  constexpr std::size_t kTooFew = 6;
   in.seen = seen_inside(c, request, in.depth_begin, seen);
-  if (in.objective == Objective::picture && in.seen.size() < kTooFew) in.objective = Objective::storage;
+  if (in.objective == Objective::picture && in.seen.size() < SeenPoints::kFewest)
+    in.objective = Objective::storage;
   in.focus = &focus;
   in.focus_weight = c.options.warp.focus_weight;
   in.light = space;

@@ -9,20 +9,14 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
+#include "geometry/first_hits.hpp"
 #include "geometry/usable.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/measure.hpp"
 #include "lanes/elementary.hpp"
 
 namespace gnomon {
-namespace {
-
-/// Fewer points are no picture.
-constexpr std::size_t kTooFew = 6;
-
-}  // namespace
 
 MapSizes equal_sizes(int size) noexcept {
   MapSizes sizes;
@@ -53,7 +47,7 @@ TexelDemands::TexelDemands(const PlanContext& c, const ShadowPlan& fitted, bool 
   by_points_ =
       std::all_of(demand_.begin(), demand_.begin() + static_cast<std::ptrdiff_t>(count_), has_need) &&
       options_.resolution.texel_budget > 0 && options_.warp.objective == Objective::picture &&
-      c.seen.size() >= kTooFew;
+      c.seen.size() >= SeenPoints::kFewest;
   if (by_points_) count_points(c, fitted);
 }
 
