@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <numbers>
 #include <type_traits>
 #include <variant>
 
@@ -13,21 +12,12 @@
 #include "gnomon/casefile/plan_fields.hpp"
 #include "json_fields.hpp"
 #include "json_text.hpp"
+#include "shared_fields.hpp"
 
 namespace gnomon {
 namespace {
 
 using nlohmann::json;
-
-double radians(double degrees) {
-  return degrees * (std::numbers::pi / 180.0);
-}
-
-double half_open_degrees(const Fields& fields, std::string_view key) {
-  const double degrees = fields.number(key);
-  if (!(degrees > 0.0 && degrees < 180.0)) fields.refuse(key, "must be between 0 and 180");
-  return degrees;
-}
 
 /// A depth, or infinity: the word, null, or nothing at all. JSON has no number for it.
 double far_depth(const Fields& fields) {
@@ -68,36 +58,11 @@ Camera camera_from(const json& value) {
     throw CaseError("camera: needs one of fov_y_deg, height_world, or left with right, bottom and top");
   if (edges) return edges_camera(fields);
   if (fields.has("orthographic")) fields.refuse("orthographic", "is only read with left, right, bottom, top");
-  const double extent =
-      fov ? radians(half_open_degrees(fields, "fov_y_deg")) : fields.positive("height_world");
+  const double extent = fov ? half_open_degrees(fields, "fov_y_deg") : fields.positive("height_world");
   return (fov ? perspective_camera : orthographic_camera)(
       fields.vector("position"), fields.vector("forward"), fields.vector("up"), extent,
       fields.positive("aspect"), fields.number("near"), far_depth(fields), fields.integer("width"),
       fields.integer("height"));
-}
-
-/// `path`: of the light. `more`: keys beside those of its type.
-Light light_from(const json& value, const std::string& path, std::vector<std::string_view> more = {}) {
-  const auto keys = [&](std::vector<std::string_view> known) {
-    known.insert(known.end(), more.begin(), more.end());
-    return known;
-  };
-  // The type decides which keys are known.
-  const Fields any(value, path, keys({"type", "direction", "position", "outer_deg", "range"}));
-  const std::string type = any.text("type");
-  if (type == "directional") {
-    const Fields fields(value, path, keys({"type", "direction"}));
-    return DirectionalLight{fields.vector("direction")};
-  }
-  if (type == "spot") {
-    return SpotLight{any.vector("position"), any.vector("direction"),
-                     radians(half_open_degrees(any, "outer_deg")), any.number("range")};
-  }
-  if (type == "point") {
-    const Fields fields(value, path, keys({"type", "position", "range"}));
-    return PointLight{fields.vector("position"), fields.number("range")};
-  }
-  any.refuse("type", "is \"" + one_line(type, 40) + "\", not one of directional, spot, point");
 }
 
 std::vector<LightRequest> lights_from(const Fields& fields) {
@@ -105,7 +70,7 @@ std::vector<LightRequest> lights_from(const Fields& fields) {
   if (!list.is_array() || list.empty()) fields.refuse("lights", "needs a list of lights");
   std::vector<LightRequest> lights;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string path = "lights[" + std::to_string(i) + "]";
+    const std::string path = element_path("lights", i);
     LightRequest request{light_from(list[i], path, {"weight", "draws", "triangles"})};
     const auto read = [&](const char* key, double& value) {
       if (!list[i].contains(key)) return;
@@ -118,41 +83,6 @@ std::vector<LightRequest> lights_from(const Fields& fields) {
     lights.push_back(request);
   }
   return lights;
-}
-
-template <typename Value, typename Set>
-void read_name(const Fields& fields, std::string_view key, Value& out, const char* names, Set set) {
-  if (!fields.has(key)) return;
-  const std::string name = fields.text(key);
-  if (!set(name, out)) fields.refuse(key, "is \"" + one_line(name, 40) + "\", not one of " + names);
-}
-
-bool ndc_depth_from_name(std::string_view name, NdcDepth& depth) {
-  if (name == "minus_one_to_one") depth = NdcDepth::minus_one_to_one;
-  if (name == "zero_to_one") depth = NdcDepth::zero_to_one;
-  return name == "minus_one_to_one" || name == "zero_to_one";
-}
-
-bool handedness_from_name(std::string_view name, Handedness& handedness) {
-  handedness = name == "left" ? Handedness::left : Handedness::right;
-  return name == "left" || name == "right";
-}
-
-bool first_row_from_name(std::string_view name, FirstRow& row) {
-  row = name == "y_plus_one" ? FirstRow::y_plus_one : FirstRow::y_minus_one;
-  return name == "y_plus_one" || name == "y_minus_one";
-}
-
-ClipSpace clip_space_from(const json& value) {
-  const Fields fields(value, "options.clip_space",
-                      {"ndc_depth", "reversed_z", "y_down", "handedness", "first_row"});
-  ClipSpace clip_space;
-  read_name(fields, "ndc_depth", clip_space.ndc_depth, "minus_one_to_one, zero_to_one", ndc_depth_from_name);
-  fields.read("reversed_z", clip_space.reversed_z);
-  fields.read("y_down", clip_space.y_down);
-  read_name(fields, "handedness", clip_space.handedness, "right, left", handedness_from_name);
-  read_name(fields, "first_row", clip_space.first_row, "y_minus_one, y_plus_one", first_row_from_name);
-  return clip_space;
 }
 
 BiasOptions bias_from(const json& value) {
@@ -173,8 +103,7 @@ WarpPlanes planes_from(const Fields& fields, std::string_view key) {
   if (list.size() > planes.size())
     fields.refuse(key, "holds more than " + std::to_string(planes.size()) + " planes");
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const Fields plane(list[i], fields.path_of(key) + "[" + std::to_string(i) + "]",
-                       {"point", "normal", "thickness"});
+    const Fields plane(list[i], element_path(fields.path_of(key), i), {"point", "normal", "thickness"});
     planes[i] = {plane.vector("point"), plane.vector("normal"), plane.positive("thickness")};
   }
   return planes;
@@ -207,7 +136,7 @@ void read_field(const Fields& fields, std::string_view key, const PlanField& fie
         } else if constexpr (std::is_same_v<Place, PlanMember<BiasOptions>>) {
           place(options) = bias_from(fields.at(key));
         } else if constexpr (std::is_same_v<Place, PlanMember<ClipSpace>>) {
-          place(options) = clip_space_from(fields.at(key));
+          place(options) = clip_space_from(fields.at(key), fields.path_of(key));
         } else if constexpr (std::is_same_v<Place, PlanMember<SplitDepths>>) {
           const std::vector<double> depths = fields.numbers(key);
           if (depths.size() > place(options).size()) fields.refuse(key, "holds too many depths");
@@ -330,28 +259,6 @@ LightOptions light_options_from(const json& value) {
   return options;
 }
 
-/// Visible points: lists of three numbers, or of six with the normal.
-void read_seen(const Fields& fields, Case& result) {
-  const json& list = fields.at("seen");
-  if (!list.is_array()) fields.refuse("seen", "needs a list of points");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string path = "seen[" + std::to_string(i) + "]";
-    const json& point = list[i];
-    const bool with_normal = point.is_array() && point.size() == 6;
-    if (!with_normal && !(point.is_array() && point.size() == 3))
-      throw CaseError(path + ": needs three numbers, or six with the normal");
-    if (i > 0 && with_normal == result.seen_normals.empty())
-      throw CaseError(path + ": has " + (with_normal ? "a" : "no") + " normal, unlike the points before");
-    std::array<double, 6> number{};
-    for (std::size_t k = 0; k < point.size(); ++k) {
-      if (!point[k].is_number()) throw CaseError(path + "[" + std::to_string(k) + "]: needs a number");
-      number[k] = point[k].get<double>();
-    }
-    result.seen.emplace_back(number[0], number[1], number[2]);
-    if (with_normal) result.seen_normals.emplace_back(number[3], number[4], number[5]);
-  }
-}
-
 void read_feedback(const Fields& fields, Case& result) {
   for (const double bits : fields.numbers("seen_feedback")) {
     constexpr double kAllBits = kShadowEdge | kShadowChanged | kDepthEdge;
@@ -399,7 +306,11 @@ Case read_case(std::string_view json_text) {
     fields.refuse("seen", "is only read with options.pages or lights");
   if (fields.has("seen_feedback") && !result.pages)
     fields.refuse("seen_feedback", "is only read with options.pages");
-  if (fields.has("seen")) read_seen(fields, result);
+  if (fields.has("seen")) {
+    ListedPoints seen = points_from(fields, "seen");
+    result.seen = std::move(seen.points);
+    result.seen_normals = std::move(seen.normals);
+  }
   if (fields.has("seen_feedback")) read_feedback(fields, result);
   return result;
 }

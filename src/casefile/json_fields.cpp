@@ -21,13 +21,6 @@ std::string joined(std::string_view path, std::string_view key) {
   throw CaseError(path + ": needs " + std::string(wanted) + ", is " + found.type_name());
 }
 
-double finite_number(const json& value, const std::string& path) {
-  if (!value.is_number()) wrong_type(path, "a number", value);
-  const double number = value.get<double>();
-  if (!std::isfinite(number)) throw CaseError(path + ": is not finite");
-  return number;
-}
-
 glm::dvec3 vector_from(const json& value, const std::string& path) {
   if (!value.is_array() || value.size() != 3) throw CaseError(path + ": needs three numbers");
   glm::dvec3 vector{};
@@ -37,6 +30,13 @@ glm::dvec3 vector_from(const json& value, const std::string& path) {
 }
 
 }  // namespace
+
+double finite_number(const json& value, const std::string& path) {
+  if (!value.is_number()) wrong_type(path, "a number", value);
+  const double number = value.get<double>();
+  if (!std::isfinite(number)) throw CaseError(path + ": is not finite");
+  return number;
+}
 
 Box box_from(const json& value, const std::string& path) {
   const Fields fields(value, path, {"min", "max"});

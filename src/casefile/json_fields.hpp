@@ -59,6 +59,9 @@ class Fields {
   std::string path_;
 };
 
+/// Throws CaseError with `path` before what is wrong.
+[[nodiscard]] double finite_number(const nlohmann::json& value, const std::string& path);
+
 /// {"min": [x, y, z], "max": [x, y, z]}; throws CaseError with `path` before what is wrong.
 [[nodiscard]] Box box_from(const nlohmann::json& value, const std::string& path);
 

@@ -4,11 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "base/bounded_file.hpp"
 #include "json_fields.hpp"
 #include "json_text.hpp"
+#include "shared_fields.hpp"
 
 namespace gnomon::judge {
 namespace {
@@ -28,40 +28,20 @@ constexpr std::array<std::string_view, 8> kFrameKeys{"camera",    "lights",  "ma
                                                      "receivers", "casters", "points", "bias"};
 constexpr std::array<std::string_view, 3> kSceneKeys{"receivers", "casters", "points"};
 
-std::string place(const std::string& path, std::size_t index) {
-  return path + "[" + std::to_string(index) + "]";
-}
-
-bool flag(const Fields& fields, std::string_view key, std::string_view yes, std::string_view no,
-          bool otherwise) {
-  if (!fields.has(key)) return otherwise;
-  const std::string word = fields.text(key);
-  if (word != yes && word != no)
-    fields.refuse(
-        key, "is \"" + one_line(word, 40) + "\", not one of " + std::string(yes) + ", " + std::string(no));
-  return word == yes;
-}
-
-ClipSpace clip_space_from(const Fields& file, std::string_view key, const ClipSpace& otherwise) {
-  if (!file.has(key)) return otherwise;
-  const Fields fields(file.at(key), std::string(key),
-                      {"ndc_depth", "reversed_z", "y_down", "handedness", "first_row"});
-  ClipSpace space;
-  space.ndc_depth = flag(fields, "ndc_depth", "zero_to_one", "minus_one_to_one", false)
-                        ? NdcDepth::zero_to_one
-                        : NdcDepth::minus_one_to_one;
-  fields.read("reversed_z", space.reversed_z);
-  fields.read("y_down", space.y_down);
-  space.handedness =
-      flag(fields, "handedness", "left", "right", false) ? Handedness::left : Handedness::right;
-  space.first_row = flag(fields, "first_row", "y_plus_one", "y_minus_one", false) ? FirstRow::y_plus_one
-                                                                                  : FirstRow::y_minus_one;
-  return space;
+/// Whether the key has the first of two words; false where it is absent.
+bool flag(const Fields& fields, std::string_view key, std::string_view yes, std::string_view no) {
+  bool is = false;
+  read_name(fields, key, is, (std::string(yes) + ", " + std::string(no)).c_str(),
+            [&](std::string_view word, bool& out) {
+              out = word == yes;
+              return word == yes || word == no;
+            });
+  return is;
 }
 
 /// What all frames of a file share.
 struct Convention {
-  ClipSpace maps, camera;
+  ClipSpace camera;
   bool rows_first = false;  // matrices are written row by row
 };
 
@@ -71,8 +51,7 @@ glm::dmat4 matrix_from(const Fields& fields, std::string_view key, const Convent
   glm::dmat4 m{};
   for (int i = 0; i < 16; ++i) {
     const double value = numbers[static_cast<std::size_t>(i)];
-    constexpr double kLargest = 1e30;
-    if (!(std::abs(value) <= kLargest)) fields.refuse(key, "has an entry beyond 1e30");
+    if (!(std::abs(value) <= kLargestNumber)) fields.refuse(key, "has an entry beyond 1e30");
     (convention.rows_first ? m[i % 4][i / 4] : m[i / 4][i % 4]) = value;
   }
   return m;
@@ -94,22 +73,23 @@ Camera camera_of(const json& value, const std::string& path, const Convention& c
 }
 
 Light light_of(const json& value, const std::string& path) {
-  const Fields fields(value, path, {"type", "direction", "position", "outer_deg", "range"});
-  const std::string type = fields.text("type");
-  const auto direction = [&] {
-    const glm::dvec3 d = fields.vector("direction");
-    const double largest = std::max({std::abs(d.x), std::abs(d.y), std::abs(d.z)});
-    if (!(largest > 0.0)) fields.refuse("direction", "must not be zero");
-    return d / largest;  // of any length, also one whose square is no number
+  Light light = light_from(value, path);
+  // Of any length, also one whose square is no number.
+  const auto scaled = [&](glm::dvec3& direction) {
+    const double largest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+    if (!(largest > 0.0)) throw CaseError(path + ".direction: must not be zero");
+    direction /= largest;
   };
-  if (type == "directional") return DirectionalLight{direction()};
-  if (type == "point") return PointLight{fields.vector("position"), fields.positive("range")};
-  if (type != "spot")
-    fields.refuse("type", "is \"" + one_line(type, 40) + "\", not one of directional, spot, point");
-  const double degrees = fields.number("outer_deg");
-  if (!(degrees > 0.0 && degrees < 180.0)) fields.refuse("outer_deg", "must be between 0 and 180");
-  return SpotLight{fields.vector("position"), direction(), degrees * (std::numbers::pi / 180.0),
-                   fields.positive("range")};
+  const auto positive = [&](double range) {
+    if (!(range > 0.0)) throw CaseError(path + ".range: must be above 0");
+  };
+  if (auto* sun = std::get_if<DirectionalLight>(&light)) scaled(sun->direction);
+  if (auto* bulb = std::get_if<PointLight>(&light)) positive(bulb->range);
+  if (auto* spot = std::get_if<SpotLight>(&light)) {
+    scaled(spot->direction);
+    positive(spot->range);
+  }
+  return light;
 }
 
 CapturedBias bias_of(const json& value, const std::string& path) {
@@ -172,37 +152,21 @@ CapturedMap map_of(const json& value, const std::string& path, const Convention&
   if (!(map.filter_texels >= 0.0 && map.filter_texels <= kLargestMap))
     fields.refuse("filter_texels", "must lie in 0..65536");
   fields.read("clamps_depth", map.clamps_depth);
-  map.stores_back = flag(fields, "stores", "back", "front", false);
+  map.stores_back = flag(fields, "stores", "back", "front");
   map.bias = fields.has("bias") ? bias_of(fields.at("bias"), path + ".bias") : bias;
   return map;
 }
 
 void read_points(const Fields& fields, CapturedScene& scene) {
-  const json& list = fields.at("points");
-  const std::string path = fields.path_of("points");
-  if (!list.is_array()) fields.refuse("points", "needs a list of points");
   constexpr std::size_t kMostPoints = 100000;
-  if (list.size() > kMostPoints) fields.refuse("points", "holds more than 100000");
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const json& point = list[i];
-    const bool with_normal = point.is_array() && point.size() == 6;
-    if (!with_normal && !(point.is_array() && point.size() == 3))
-      throw CaseError(place(path, i) + ": needs three numbers, or six with the normal");
-    if (i > 0 && with_normal == scene.normals.empty())
-      throw CaseError(place(path, i) + ": has " + (with_normal ? "a" : "no") +
-                      " normal, unlike the points before");
-    std::array<double, 6> number{};
-    for (std::size_t k = 0; k < point.size(); ++k) {
-      if (!point[k].is_number() || !std::isfinite(point[k].get<double>()))
-        throw CaseError(place(place(path, i), k) + ": needs a finite number");
-      number[k] = point[k].get<double>();
-    }
-    scene.points.emplace_back(number[0], number[1], number[2]);
-    if (!with_normal) continue;
-    const glm::dvec3 normal{number[3], number[4], number[5]};
-    const double length = glm::length(normal);
-    if (!(length > 0.0)) throw CaseError(place(path, i) + ": has a normal without length");
-    scene.normals.push_back(normal / length);
+  if (fields.at("points").size() > kMostPoints) fields.refuse("points", "holds more than 100000");
+  ListedPoints listed = points_from(fields, "points");
+  scene.points = std::move(listed.points);
+  for (std::size_t i = 0; i < listed.normals.size(); ++i) {
+    const double length = glm::length(listed.normals[i]);
+    if (!(length > 0.0))
+      throw CaseError(element_path(fields.path_of("points"), i) + ": has a normal without length");
+    scene.normals.push_back(listed.normals[i] / length);
   }
 }
 
@@ -213,7 +177,7 @@ std::vector<Box> boxes_of(const Fields& fields, std::string_view key) {
     const Box& box = boxes[i];
     const double largest = std::max(glm::length(box.min), glm::length(box.max));
     if (box.empty() || !(largest <= kLargestNumber))
-      throw CaseError(place(fields.path_of(key), i) +
+      throw CaseError(element_path(fields.path_of(key), i) +
                       (box.empty() ? ": has min above max" : ": is beyond 1e30"));
   }
   return boxes;
@@ -235,7 +199,7 @@ void read_maps(const Fields& fields, const Convention& convention, CapturedFrame
       fields.has("bias") ? bias_of(fields.at("bias"), fields.path_of("bias")) : CapturedBias{};
   std::vector<std::size_t> of_light(frame.lights.size(), 0);
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const CapturedMap map = map_of(list[i], place(path, i), convention, bias);
+    const CapturedMap map = map_of(list[i], element_path(path, i), convention, bias);
     if (map.light < 0 || static_cast<std::size_t>(map.light) >= frame.lights.size())
       throw CaseError(map.path + ".light: there is no light " + std::to_string(map.light));
     if (++of_light[static_cast<std::size_t>(map.light)] > kMostMapsOfLight)
@@ -252,18 +216,16 @@ CapturedFrame frame_of(const json& value, const std::string& path, const Convent
   if (!lights.is_array() || lights.empty() || lights.size() > kMostLights)
     fields.refuse("lights", "needs a list of 1 to 64 lights");
   for (std::size_t i = 0; i < lights.size(); ++i)
-    frame.lights.push_back(light_of(lights[i], place(fields.path_of("lights"), i)));
+    frame.lights.push_back(light_of(lights[i], element_path(fields.path_of("lights"), i)));
   read_maps(fields, convention, frame);
   const auto depths = [](const CapturedMap& map) { return std::isfinite(map.begin); };
   frame.selection = std::all_of(frame.maps.begin(), frame.maps.end(), depths) ? MapSelection::view_depth
                                                                               : MapSelection::first_holding;
-  if (fields.has("selection")) {
-    const std::string name = fields.text("selection");
-    if (name != "first_holding" && !map_selection_from_name(name, frame.selection))
-      fields.refuse("selection",
-                    "is \"" + one_line(name, 40) + "\", not one of view_depth, first_holding, finest");
-    if (name == "first_holding") frame.selection = MapSelection::first_holding;
-  }
+  read_name(fields, "selection", frame.selection, "view_depth, first_holding, finest",
+            [](std::string_view name, MapSelection& selection) {
+              if (name == "first_holding") selection = MapSelection::first_holding;
+              return name == "first_holding" || map_selection_from_name(name, selection);
+            });
   return frame;
 }
 
@@ -282,9 +244,11 @@ Capture read_capture(std::string_view json_text) {
   if (fields.has("name")) capture.name = fields.text("name");
   if (fields.has("engine")) capture.engine = fields.text("engine");
   Convention convention;
-  convention.maps = capture.clip_space = clip_space_from(fields, "clip_space", kOpenGl);
-  convention.camera = clip_space_from(fields, "camera_clip_space", convention.maps);
-  convention.rows_first = flag(fields, "matrices", "row_major", "column_major", false);
+  if (fields.has("clip_space")) capture.clip_space = clip_space_from(fields.at("clip_space"), "clip_space");
+  convention.camera = capture.clip_space;
+  if (fields.has("camera_clip_space"))
+    convention.camera = clip_space_from(fields.at("camera_clip_space"), "camera_clip_space");
+  convention.rows_first = flag(fields, "matrices", "row_major", "column_major");
   if (fields.has("atlas")) {
     const std::vector<double> size = fields.numbers("atlas");
     if (size.size() != 2 || !(size[0] >= 1.0 && size[1] >= 1.0 && std::max(size[0], size[1]) <= 1e6))
@@ -306,7 +270,7 @@ Capture read_capture(std::string_view json_text) {
     fields.refuse("frames", "needs a list of 1 to 4096 frames");
   std::size_t things = 0;
   for (std::size_t i = 0; i < list.size(); ++i) {
-    const std::string path = place("frames", i);
+    const std::string path = element_path("frames", i);
     if (!list[i].is_object()) throw CaseError(path + ": needs an object");
     json frame = list[i];
     const bool own_scene = std::any_of(kSceneKeys.begin(), kSceneKeys.end(),
