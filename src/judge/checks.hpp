@@ -52,12 +52,12 @@ void check_motion(const Capture& capture, const LightLooks& before, const LightL
 [[nodiscard]] double needed_bias(const CapturedMap& map, const Look& look, double cosine,
                                  const glm::dvec3& normal);
 
-/// A finding of one of the light's maps, by its place among them; -1: of all.
-[[nodiscard]] Finding finding_of(FindingKind kind, const LightLooks& looks, int map, double size,
-                                 std::string_view unit, std::optional<glm::dvec2> pixel = {});
+/// A finding of one of the light's maps, by its place among them, or of all.
+[[nodiscard]] Finding finding_of(FindingKind kind, const LightLooks& looks, std::optional<std::size_t> map,
+                                 double size, std::string_view unit, std::optional<glm::dvec2> pixel = {});
 /// Side of a texel across the light, world units.
 [[nodiscard]] double texel_side(const Look& look);
-/// "map 2", "maps 0, 1 and 3".
+/// "map 2".
 [[nodiscard]] std::string map_name(const LightLooks& looks, std::size_t map);
 /// "1.23 %".
 [[nodiscard]] std::string percent(double share);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/travel.hpp"
 #include "judge/checks.hpp"
 
 namespace gnomon::judge {
@@ -47,8 +48,7 @@ void check_matrix_precision(const LightLooks& looks, std::size_t map, FindingLis
   constexpr double kMoves = 0.25;  // texels: an edge then wanders by a quarter of its stairs
   const double typical = quantile(off, 0.95);
   if (!(typical > kMoves)) return;
-  Finding finding =
-      finding_of(FindingKind::matrix_precision, looks, static_cast<int>(map), typical, "texels");
+  Finding finding = finding_of(FindingKind::matrix_precision, looks, map, typical, "texels");
   finding.pixel = looks.seen->pixels[worst];
   finding.what = "In single precision, look-ups in " + map_name(looks, map) + " land " + digits(typical) +
                  " texels off (95th percentile).";
@@ -56,58 +56,6 @@ void check_matrix_precision(const LightLooks& looks, std::size_t map, FindingLis
       "Hand the shader a matrix for points relative to the camera (rebased, in C gnomon_rebased).";
   out.add(finding);
 }
-
-}  // namespace
-
-double texel_side(const Look& look) {
-  return std::sqrt(glm::length(glm::cross(look.texel_x, look.texel_y)));
-}
-
-double bias_at(const CapturedMap& map, const Look& look, double cosine, const glm::dvec3& normal) {
-  const CapturedBias& b = map.bias;
-  const double side = texel_side(look), sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-  const double per_depth = look.depth_per_world > 0.0 ? 1.0 / look.depth_per_world : 0.0;
-  const double growth =
-      std::max(std::abs(glm::dot(look.texel_x, normal)), std::abs(glm::dot(look.texel_y, normal))) / cosine;
-  return b.world + b.depth * per_depth + b.texels * side + b.slope_texels * side * sine / cosine +
-         b.slope_factor * growth + (b.normal_world + b.normal_texels * side) / cosine;
-}
-
-double needed_bias(const CapturedMap& map, const Look& look, double cosine, const glm::dvec3& normal) {
-  if (map.bias.follows_plane) return 0.0;
-  const double reach = 0.5 + map.filter_texels;
-  return reach * (std::abs(glm::dot(look.texel_x, normal)) + std::abs(glm::dot(look.texel_y, normal))) /
-         cosine;
-}
-
-/// Of a texel's side: depths may be off by it anywhere.
-constexpr double kHarmless = 0.05;
-
-void check_precision(const Capture&, const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
-  for (std::size_t i = 0; i < looks.map.size(); ++i) {
-    if (broken[i]) continue;
-    check_matrix_precision(looks, static_cast<int>(i), out);
-    const CapturedMap& map = looks.map_at(i);
-    std::vector<double> steps, shares;
-    for_each_served(looks, static_cast<int>(i), [&](std::size_t, const Look& look) {
-      if (!(look.depth_per_world > 0.0)) return;
-      const double step = depth_step(map.depth_bits) / look.depth_per_world;
-      const double bias = bias_at(map, look, 1.0, {0.0, 0.0, 0.0});
-      steps.push_back(step);
-      shares.push_back(step / std::max(bias, kHarmless * texel_side(look)));
-    });
-    const double share = quantile(shares);
-    if (!(share > 1.0) || map.stores_back) continue;
-    Finding finding =
-        finding_of(FindingKind::depth_precision, looks, static_cast<int>(i), quantile(steps), "world units");
-    finding.what = "Steps of depth in " + map_name(looks, i) + " are " + digits(quantile(steps)) +
-                   " world units, " + digits(share) + " times what its bias allows.";
-    finding.change = "Bring near and far plane together, take more bits, or raise the bias above a step.";
-    out.add(finding);
-  }
-}
-
-namespace {
 
 /// Points of one map that have one fault of the bias, and the worst of them.
 struct FaultyBias {
@@ -137,7 +85,7 @@ struct BiasFaults {
 
 BiasFaults bias_faults(const LightLooks& looks, std::size_t map_index) {
   const CapturedMap& map = looks.map_at(map_index);
-  const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
+  const Light& light = looks.source();
   const Camera& camera = looks.frame->camera;
   // Beyond it, shading leaves next to no light that a shadow could take.
   constexpr double kSteepest = 0.2425;  // cosine: tan 4
@@ -169,6 +117,51 @@ BiasFaults bias_faults(const LightLooks& looks, std::size_t map_index) {
 
 }  // namespace
 
+double texel_side(const Look& look) {
+  return std::sqrt(glm::length(glm::cross(look.texel_x, look.texel_y)));
+}
+
+double bias_at(const CapturedMap& map, const Look& look, double cosine, const glm::dvec3& normal) {
+  const CapturedBias& b = map.bias;
+  const double side = texel_side(look), sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+  const double per_depth = look.depth_per_world > 0.0 ? 1.0 / look.depth_per_world : 0.0;
+  const double growth =
+      std::max(std::abs(glm::dot(look.texel_x, normal)), std::abs(glm::dot(look.texel_y, normal))) / cosine;
+  return b.world + b.depth * per_depth + b.texels * side + b.slope_texels * side * sine / cosine +
+         b.slope_factor * growth + (b.normal_world + b.normal_texels * side) / cosine;
+}
+
+double needed_bias(const CapturedMap& map, const Look& look, double cosine, const glm::dvec3& normal) {
+  if (map.bias.follows_plane) return 0.0;
+  const double reach = 0.5 + map.filter_texels;
+  return reach * (std::abs(glm::dot(look.texel_x, normal)) + std::abs(glm::dot(look.texel_y, normal))) /
+         cosine;
+}
+
+void check_precision(const Capture&, const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
+  for (std::size_t i = 0; i < looks.map.size(); ++i) {
+    if (broken[i]) continue;
+    check_matrix_precision(looks, i, out);
+    const CapturedMap& map = looks.map_at(i);
+    std::vector<double> steps, shares;
+    for_each_served(looks, i, [&](std::size_t, const Look& look) {
+      if (!(look.depth_per_world > 0.0)) return;
+      const double step = depth_step(map.depth_bits) / look.depth_per_world;
+      const double bias = bias_at(map, look, 1.0, {0.0, 0.0, 0.0});
+      constexpr double kHarmless = 0.05;  // of a texel's side
+      steps.push_back(step);
+      shares.push_back(step / std::max(bias, kHarmless * texel_side(look)));
+    });
+    const double share = quantile(shares);
+    if (!(share > 1.0) || map.stores_back) continue;
+    Finding finding = finding_of(FindingKind::depth_precision, looks, i, quantile(steps), "world units");
+    finding.what = "Steps of depth in " + map_name(looks, i) + " are " + digits(quantile(steps)) +
+                   " world units, " + digits(share) + " times what its bias allows.";
+    finding.change = "Bring near and far plane together, take more bits, or raise the bias above a step.";
+    out.add(finding);
+  }
+}
+
 void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
   if (looks.seen->normals.empty()) return;
   for (std::size_t i = 0; i < looks.map.size(); ++i) {
@@ -177,7 +170,7 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
     const BiasFaults faults = bias_faults(looks, i);
     if (faults.matters(faults.small)) {
       const double share = faults.share(faults.small);
-      Finding finding = finding_of(FindingKind::bias_small, looks, static_cast<int>(i), share, "share",
+      Finding finding = finding_of(FindingKind::bias_small, looks, i, share, "share",
                                    looks.seen->pixels[faults.small.worst_point]);
       finding.what = "Acne is likely on " + percent(share) + " of what " + map_name(looks, i) +
                      " serves: the bias there is " + digits(quantile(faults.small.sizes)) +
@@ -188,7 +181,7 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
     }
     if (faults.matters(faults.large)) {
       const double gap = quantile(faults.large.sizes);
-      Finding finding = finding_of(FindingKind::bias_large, looks, static_cast<int>(i), gap, "world units",
+      Finding finding = finding_of(FindingKind::bias_large, looks, i, gap, "world units",
                                    looks.seen->pixels[faults.large.worst_point]);
       finding.what = "Shadows in " + map_name(looks, i) + " begin " + digits(gap) +
                      " world units off the foot of their casters, on " + percent(faults.share(faults.large)) +

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/travel.hpp"
 #include "judge/checks.hpp"
 
 namespace gnomon::judge {
@@ -62,7 +63,7 @@ void add_cut(const Capture& capture, const LightLooks& looks, std::size_t map, s
   const double depth = depth_of(look.clip.z, capture.clip_space);
   // Along the light's ray: depth under a perspective is no length.
   const glm::dvec3 position = looks.seen->points[point];
-  const glm::dvec3 way = travel_at(looks.frame->lights[static_cast<std::size_t>(looks.light)], position);
+  const glm::dvec3 way = travel_at(looks.source(), position);
   const double off =
       way_to_depth(looks.map_at(map), capture.clip_space, position, way, depth < 0.0 ? 0.0 : 1.0);
   missed.cut[map].add(point, std::abs(off));
@@ -127,7 +128,7 @@ void report_missed(const Capture& capture, const LightLooks& looks, const Missed
     for (const Faulty& cut : missed.cut) {
       if (cut.points.size() > most->points.size()) most = &cut;
     }
-    Finding finding = finding_of(FindingKind::depth_convention, looks, -1,
+    Finding finding = finding_of(FindingKind::depth_convention, looks, std::nullopt,
                                  static_cast<double>(missed.cut_count) / static_cast<double>(missed.counted),
                                  "share", pixel_of(looks, *most));
     const bool zero = capture.clip_space.ndc_depth == NdcDepth::zero_to_one;
@@ -143,8 +144,8 @@ void report_missed(const Capture& capture, const LightLooks& looks, const Missed
     if (!matters(cut.points.size(), missed.counted, guessed) &&
         !matters_there(cut.points.size(), missed.served[i]))
       continue;
-    Finding finding = finding_of(FindingKind::receivers_cut, looks, static_cast<int>(i), share(cut), "share",
-                                 pixel_of(looks, cut));
+    Finding finding =
+        finding_of(FindingKind::receivers_cut, looks, i, share(cut), "share", pixel_of(looks, cut));
     finding.what = share_text(cut.points.size(), missed.counted) + " of the lit surfaces lie in " +
                    map_name(looks, i) + " but beyond its depths, by up to " + digits(cut.worst) +
                    " world units.";
@@ -152,24 +153,24 @@ void report_missed(const Capture& capture, const LightLooks& looks, const Missed
     out.add(finding);
   }
   if (matters(missed.outside.points.size(), missed.counted, guessed)) {
-    Finding finding = finding_of(FindingKind::receivers_outside, looks, -1, share(missed.outside), "share",
-                                 pixel_of(looks, missed.outside));
+    Finding finding = finding_of(FindingKind::receivers_outside, looks, std::nullopt, share(missed.outside),
+                                 "share", pixel_of(looks, missed.outside));
     finding.what = share_text(missed.outside.points.size(), missed.counted) +
                    " of the lit surfaces are in no map: they get no shadow.";
     finding.change = "Fit the maps round all that the camera sees up to the shadows' end.";
     out.add(finding);
   }
   if (matters(missed.disagreed.points.size(), missed.counted, guessed)) {
-    Finding finding = finding_of(FindingKind::selection_disagrees, looks, -1, share(missed.disagreed),
-                                 "share", pixel_of(looks, missed.disagreed));
+    Finding finding = finding_of(FindingKind::selection_disagrees, looks, std::nullopt,
+                                 share(missed.disagreed), "share", pixel_of(looks, missed.disagreed));
     finding.what = "For " + share_text(missed.disagreed.points.size(), missed.counted) +
                    " of the lit surfaces, the map of their view depth does not hold them, and another does.";
     finding.change = "Choose by the same depths that the maps were fitted to, or by what each map holds.";
     out.add(finding);
   }
   if (missed.gap.points.size() >= 3) {
-    Finding finding = finding_of(FindingKind::gap_between_maps, looks, -1, share(missed.gap), "share",
-                                 pixel_of(looks, missed.gap));
+    Finding finding = finding_of(FindingKind::gap_between_maps, looks, std::nullopt, share(missed.gap),
+                                 "share", pixel_of(looks, missed.gap));
     finding.what = share_text(missed.gap.points.size(), missed.counted) +
                    " of the lit surfaces are at view depths before the first map or between two.";
     finding.change = "Let the first map begin at the near plane, and each where the one before it ends.";
@@ -177,36 +178,15 @@ void report_missed(const Capture& capture, const LightLooks& looks, const Missed
   }
 }
 
-/// Where a ray of unit length enters a box from outside, and leaves it; both infinite where it does not.
-struct Crossing {
-  double enter = std::numeric_limits<double>::infinity(), leave = enter;
-};
-
-Crossing crossing_of(const Box& box, const glm::dvec3& origin, const glm::dvec3& ray) {
-  double enter = 0.0, leave = std::numeric_limits<double>::infinity();
-  for (int i = 0; i < 3; ++i) {
-    if (ray[i] == 0.0) {
-      if (origin[i] < box.min[i] || origin[i] > box.max[i]) return {};
-      continue;
-    }
-    const double a = (box.min[i] - origin[i]) / ray[i], b = (box.max[i] - origin[i]) / ray[i];
-    enter = std::max(enter, std::min(a, b));
-    leave = std::min(leave, std::max(a, b));
-  }
-  if (!(enter <= leave && enter > 0.0)) return {};
-  return {enter, leave};
-}
-
 /// From a point to the light; infinite to a sun.
 double distance_to(const Light& light, const glm::dvec3& point) {
-  if (const auto* spot = std::get_if<SpotLight>(&light)) return glm::length(spot->position - point);
-  if (const auto* bulb = std::get_if<PointLight>(&light)) return glm::length(bulb->position - point);
-  return std::numeric_limits<double>::infinity();
+  if (std::holds_alternative<DirectionalLight>(light)) return std::numeric_limits<double>::infinity();
+  return glm::length(position_of(light) - point);
 }
 
 void check_casters(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken,
                    FindingList& out) {
-  const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
+  const Light& light = looks.source();
   std::vector<Faulty> cut(looks.map.size());
   std::vector<std::size_t> served(looks.map.size(), 0);
   std::size_t counted = 0;
@@ -227,8 +207,9 @@ void check_casters(const Capture& capture, const LightLooks& looks, const Broken
     if (!(near_at > 0.0)) continue;
     const double light_at = distance_to(light, point);
     for (const Box& caster : looks.scene->casters) {
-      const Crossing crossing = crossing_of(caster, point, back);
-      if (crossing.enter > near_at * (1.0 + 1e-6) && crossing.enter < light_at) {
+      const BoxCrossing crossing = crossing_of(caster, point, back);
+      if (crossing.enter <= crossing.leave && crossing.enter > near_at * (1.0 + 1e-6) &&
+          crossing.enter < light_at) {
         cut[at].add(p, std::min(crossing.leave, light_at) - near_at);
         break;
       }
@@ -237,7 +218,7 @@ void check_casters(const Capture& capture, const LightLooks& looks, const Broken
   for (std::size_t i = 0; i < cut.size(); ++i) {
     if (!matters(cut[i].points.size(), counted, false) && !matters_there(cut[i].points.size(), served[i]))
       continue;
-    Finding finding = finding_of(FindingKind::casters_cut, looks, static_cast<int>(i),
+    Finding finding = finding_of(FindingKind::casters_cut, looks, i,
                                  static_cast<double>(cut[i].points.size()) / static_cast<double>(counted),
                                  "share", pixel_of(looks, cut[i]));
     finding.what = "Casters of " + share_text(cut[i].points.size(), counted) +
@@ -275,7 +256,7 @@ void check_use(const LightLooks& looks, const BrokenMaps& broken, FindingList& o
     const CapturedMap& map = looks.map_at(i);
     const double texels = static_cast<double>(map.width) * map.height;
     if (served[i] == 0) {
-      Finding finding = finding_of(FindingKind::map_unseen, looks, static_cast<int>(i), texels, "texels");
+      Finding finding = finding_of(FindingKind::map_unseen, looks, i, texels, "texels");
       finding.what = "Nothing that the camera sees reads " + map_name(looks, i) + ": " +
                      digits(texels * 1e-6) + " million texels are drawn for nothing.";
       finding.change = "Skip the map in such frames, or divide the depths that show something.";
@@ -286,8 +267,7 @@ void check_use(const LightLooks& looks, const BrokenMaps& broken, FindingList& o
     const glm::dvec2 size = used[i].high - used[i].low + 2.0 * map.filter_texels;
     const double share = std::min(1.0, size.x / map.width) * std::min(1.0, size.y / map.height);
     if (share >= kLeastUsed) continue;
-    Finding finding =
-        finding_of(FindingKind::texels_unseen, looks, static_cast<int>(i), 1.0 - share, "share");
+    Finding finding = finding_of(FindingKind::texels_unseen, looks, i, 1.0 - share, "share");
     finding.what = percent(1.0 - share) + " of the texels of " + map_name(looks, i) +
                    " lie outside of all that the camera sees in it.";
     finding.change = "Fit the map to the visible receivers: the texels would be " + digits(std::sqrt(share)) +
@@ -314,7 +294,7 @@ bool check_depths(const LightLooks& looks, FindingList& out) {
     begin = std::min(begin, looks.map_at(i).begin);
     end = std::max(end, looks.map_at(i).end);
   }
-  Finding finding = finding_of(FindingKind::gap_between_maps, looks, -1, 1.0, "share");
+  Finding finding = finding_of(FindingKind::gap_between_maps, looks, std::nullopt, 1.0, "share");
   finding.what = "No lit surface is at the view depths that the maps serve (" + digits(begin) + " to " +
                  digits(end) + "): they are at " + digits(nearest) + " to " + digits(farthest) + ".";
   finding.change = "Give depths in world units, from the eye forward, and a camera that looks at the scene.";

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "base/travel.hpp"
 #include "judge/checks.hpp"
 
 namespace gnomon::judge {
@@ -38,7 +39,7 @@ struct Orientation {
 template <typename LookAt>
 Orientation orientation_of(const Capture& capture, const LightLooks& looks, LookAt&& looks_at) {
   Orientation o;
-  const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
+  const Light& light = looks.source();
   const ClipSpace& space = capture.clip_space;
   const bool turned = space.y_down != (space.handedness == Handedness::left);
   std::vector<double> degrees;
@@ -65,7 +66,7 @@ Orientation orientation_of(const Capture& capture, const LightLooks& looks, Look
 }
 
 Finding transposed_finding(const LightLooks& looks, std::size_t map) {
-  Finding finding = finding_of(FindingKind::transposed, looks, static_cast<int>(map), 1.0, "matrix");
+  Finding finding = finding_of(FindingKind::transposed, looks, map, 1.0, "matrix");
   finding.what =
       "The matrix of " + map_name(looks, map) + " is written the other way round: rows are columns.";
   finding.change = "Say \"matrices\": \"row_major\", or hand in the transposed matrix.";
@@ -74,7 +75,7 @@ Finding transposed_finding(const LightLooks& looks, std::size_t map) {
 
 void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t map, BrokenMaps& broken,
                   FindingList& out) {
-  const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
+  const Light& light = looks.source();
   const std::string name = map_name(looks, map);
   if (std::holds_alternative<DirectionalLight>(light) &&
       looks_transposed(looks.map_at(map).clip_from_world)) {
@@ -97,8 +98,7 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
   }
   const std::size_t front = o.count - o.behind;
   if (o.behind > o.count / 2) {
-    Finding finding =
-        finding_of(FindingKind::light_direction, looks, static_cast<int>(map), 180.0, "degrees");
+    Finding finding = finding_of(FindingKind::light_direction, looks, map, 180.0, "degrees");
     finding.what =
         "The frustum of " + name + " lies behind its light: w is below 0 for what the light lights.";
     finding.change = "Turn the view matrix of the light round, or give the light's direction as it travels.";
@@ -107,8 +107,7 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
     return;
   }
   if (o.degrees > kSameDirection) {
-    Finding finding =
-        finding_of(FindingKind::light_direction, looks, static_cast<int>(map), o.degrees, "degrees");
+    Finding finding = finding_of(FindingKind::light_direction, looks, map, o.degrees, "degrees");
     finding.what = "The rays of " + name + " run " + digits(o.degrees) + " degrees off its light's.";
     finding.change = "Build the matrix from this frame's light, in the same space as the camera's.";
     out.add(finding);
@@ -118,8 +117,7 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
   const bool reversed = o.reversed > front / 2, mirrored = o.mirrored > front / 2;
   // Seen from behind, left and right change places as near and far do.
   if (reversed && mirrored && std::holds_alternative<DirectionalLight>(light)) {
-    Finding finding =
-        finding_of(FindingKind::light_direction, looks, static_cast<int>(map), 180.0, "degrees");
+    Finding finding = finding_of(FindingKind::light_direction, looks, map, 180.0, "degrees");
     finding.what = "The light of " + name + " is said to travel the other way than its map looks.";
     finding.change = "Give the direction that the light travels, not the one towards it.";
     out.add(finding);
@@ -127,7 +125,7 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
     return;
   }
   if (reversed) {
-    Finding finding = finding_of(FindingKind::depth_reversed, looks, static_cast<int>(map), 1.0, "matrix");
+    Finding finding = finding_of(FindingKind::depth_reversed, looks, map, 1.0, "matrix");
     finding.what = std::string("Depth in ") + name + " grows " +
                    (capture.clip_space.reversed_z ? "away from" : "towards") +
                    " the light: the comparison must be the other one.";
@@ -137,7 +135,7 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
   }
   // Faces of cubes are mirrored by the convention of cube maps: check_cube() holds them to each other.
   if (mirrored && !std::holds_alternative<PointLight>(light)) {
-    Finding finding = finding_of(FindingKind::mirrored, looks, static_cast<int>(map), 1.0, "matrix");
+    Finding finding = finding_of(FindingKind::mirrored, looks, map, 1.0, "matrix");
     finding.what = "The picture of " + name + " is a mirror image: culling removes the wrong faces.";
     finding.change =
         "Check handedness and y_down of clip_space, and the sign of x in the light's view matrix.";
@@ -158,7 +156,7 @@ void check_cube(const LightLooks& looks, const BrokenMaps& broken, FindingList& 
   const bool most = 2 * count > positive.size();
   for (std::size_t map = 0; map < positive.size(); ++map) {
     if (broken[map] || positive[map] == most) continue;
-    Finding finding = finding_of(FindingKind::mirrored, looks, static_cast<int>(map), 1.0, "matrix");
+    Finding finding = finding_of(FindingKind::mirrored, looks, map, 1.0, "matrix");
     finding.what =
         "The picture of " + map_name(looks, map) + " is a mirror image of what the light's other faces show.";
     finding.change = "Check the sign of x in the face's view matrix.";
@@ -168,7 +166,7 @@ void check_cube(const LightLooks& looks, const BrokenMaps& broken, FindingList& 
 
 /// Texture coordinates in place of clip space: all is in 0..1 across and along the maps of a sun.
 bool is_texture_space(const LightLooks& looks) {
-  const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
+  const Light& light = looks.source();
   if (!std::holds_alternative<DirectionalLight>(light)) return false;
   std::size_t counted = 0, within = 0;
   for (std::size_t map = 0; map < looks.map.size(); ++map) {
@@ -189,10 +187,10 @@ bool is_texture_space(const LightLooks& looks) {
 
 void check_matrices(const Capture& capture, const LightLooks& looks, BrokenMaps& broken, FindingList& out) {
   for (std::size_t map = 0; map < looks.map.size(); ++map) check_matrix(capture, looks, map, broken, out);
-  const Light& light = looks.frame->lights[static_cast<std::size_t>(looks.light)];
+  const Light& light = looks.source();
   if (std::holds_alternative<PointLight>(light)) check_cube(looks, broken, out);
   if (!is_texture_space(looks)) return;
-  Finding finding = finding_of(FindingKind::texture_space, looks, -1, 1.0, "matrix");
+  Finding finding = finding_of(FindingKind::texture_space, looks, std::nullopt, 1.0, "matrix");
   finding.what = "All that the maps serve lies in 0..1 across and along them: these are texture coordinates.";
   finding.change = "Hand in the matrices before they are scaled to textures (three.js: not shadow.matrix).";
   out.add(finding);

@@ -70,13 +70,13 @@ void check_motion(const Capture& capture, const LightLooks& before, const LightL
     constexpr double kDrifts = 0.05, kJumps = 1.03;
     const double jump = std::max(motion.growth, 1.0 / motion.growth);
     if (jump > kJumps) {
-      Finding finding = finding_of(FindingKind::density_jump, now, static_cast<int>(i), jump, "times");
+      Finding finding = finding_of(FindingKind::density_jump, now, i, jump, "times");
       finding.what = "Texels of " + map_name(now, i) + " become " + digits(motion.growth) +
                      " times as long from one frame to the next.";
       finding.change = "Keep the map's extent: fit what does not follow the view's turn, in steps.";
       out.add(finding);
     } else if (motion.drift > kDrifts) {
-      Finding finding = finding_of(FindingKind::swimming, now, static_cast<int>(i), motion.drift, "texels");
+      Finding finding = finding_of(FindingKind::swimming, now, i, motion.drift, "texels");
       finding.what = "Edges in " + map_name(now, i) + " are not stable: its texels move over the world by " +
                      digits(motion.drift) + " of a texel from one frame to the next.";
       finding.change = "Move the map in whole texels, and keep its extent while the camera turns.";

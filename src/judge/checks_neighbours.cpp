@@ -32,7 +32,7 @@ void check_steps(const LightLooks& looks, const BrokenMaps& broken, FindingList&
     const double ratio = quantile(ratios);
     if (ratios.size() < kEnough || (ratio < kStep && ratio > 1.0 / kStep)) continue;
     const double size = std::max(ratio, 1.0 / ratio);
-    Finding finding = finding_of(FindingKind::density_step, looks, static_cast<int>(far), size, "times");
+    Finding finding = finding_of(FindingKind::density_step, looks, far, size, "times");
     finding.what = "Texels of " + map_name(looks, far) + " are " + digits(ratio) +
                    " times as long as those of " + map_name(looks, near) + " where they meet, at depth " +
                    digits(edge) + ".";
@@ -52,7 +52,7 @@ void check_atlas(const Capture& capture, const LightLooks& looks, FindingList& o
     const bool outside = capture.atlas_width > 0 && (map.atlas.x + map.atlas.width > capture.atlas_width ||
                                                      map.atlas.y + map.atlas.height > capture.atlas_height);
     if (outside || map.atlas.width != map.width || map.atlas.height != map.height) {
-      Finding finding = finding_of(FindingKind::atlas_outside, looks, static_cast<int>(i), 1.0, "rectangle");
+      Finding finding = finding_of(FindingKind::atlas_outside, looks, i, 1.0, "rectangle");
       finding.what = outside ? "The rectangle of " + map_name(looks, i) + " reaches out of the atlas."
                              : "The rectangle of " + map_name(looks, i) + " is " +
                                    std::to_string(map.atlas.width) + " x " +
@@ -65,7 +65,7 @@ void check_atlas(const Capture& capture, const LightLooks& looks, FindingList& o
     for (std::size_t j = looks.map[i] + 1; j < looks.frame->maps.size(); ++j) {
       const CapturedMap& other = looks.frame->maps[j];
       if (other.atlas.empty() || !overlap(map.atlas, other.atlas)) continue;
-      Finding finding = finding_of(FindingKind::atlas_overlap, looks, static_cast<int>(i), 1.0, "pair");
+      Finding finding = finding_of(FindingKind::atlas_overlap, looks, i, 1.0, "pair");
       finding.what = "The rectangles of maps " + std::to_string(looks.map[i]) + " and " + std::to_string(j) +
                      " overlap.";
       finding.change = "Give each map a rectangle of its own.";
@@ -101,7 +101,7 @@ void check_rims(const LightLooks& looks, const BrokenMaps& broken, FindingList& 
         static_cast<double>(beyond[i]) / static_cast<double>(std::max<std::size_t>(counted, 1));
     constexpr double kMatters = 0.01;
     if (beyond[i] < 3 || share < kMatters) continue;
-    Finding finding = finding_of(FindingKind::filter_leaves_map, looks, static_cast<int>(i), share, "share");
+    Finding finding = finding_of(FindingKind::filter_leaves_map, looks, i, share, "share");
     finding.pixel = looks.seen->pixels[last[i]];
     finding.what = "The filter reads beyond the border of " + map_name(looks, i) + " for " + percent(share) +
                    " of the lit surfaces, by up to " + digits(most[i]) + " texels.";

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <memory>
 
+#include "base/travel.hpp"
 #include "judge/checks.hpp"
 
 namespace gnomon::judge {
@@ -53,6 +54,70 @@ std::unique_ptr<JudgedFrame> judge_frame(const Capture& capture, const CapturedF
   return judged;
 }
 
+/// The maps of one light as a plan.
+ShadowPlan plan_of(const Capture& capture, const CapturedFrame& frame, int light) {
+  ShadowPlan plan;
+  plan.status = PlanStatus::ok;
+  plan.origin_world = frame.camera.position;
+  plan.clip_space = capture.clip_space;
+  plan.selection = frame.selection;
+  const Light& source = frame.lights[static_cast<std::size_t>(light)];
+  plan.light_direction = travel_at(source, frame.camera.position);
+  if (const auto* spot = std::get_if<SpotLight>(&source))
+    plan.light_direction = glm::normalize(spot->direction);
+  const glm::dvec4 towards = std::holds_alternative<DirectionalLight>(source)
+                                 ? glm::dvec4(-plan.light_direction, 0.0)
+                                 : glm::dvec4(position_of(source), 1.0);
+  for (const CapturedMap& captured : frame.maps) {
+    if (captured.light != light) continue;
+    ShadowMap& map = plan.map[static_cast<std::size_t>(plan.map_count)] = ShadowMap{};
+    map.clip_from_world = captured.clip_from_world;
+    map.clip_from_camera_relative =
+        glm::mat4(captured.clip_from_world * glm::translate(glm::dmat4(1.0), frame.camera.position));
+    map.depth_begin = captured.begin;
+    map.depth_end = captured.end;
+    map.overlap = captured.overlap;
+    map.cascade = plan.map_count++;
+    map.width = captured.width;
+    map.height = captured.height;
+    map.warp = &warps::none;
+    map.light_world = towards;
+  }
+  return plan;
+}
+
+/// gnomon's plan for the frame's camera and light, with as many maps and texels.
+ShadowPlan plan_beside(const Capture& capture, const CapturedFrame& frame, const CapturedScene& scene,
+                       const SeenSurfaces& seen, int light, Fit fit) {
+  std::int64_t texels = 0;
+  int maps = 0;
+  double end = 0.0, filter = 0.0;
+  for (const CapturedMap& map : frame.maps) {
+    if (map.light != light) continue;
+    texels += std::int64_t{map.width} * map.height;
+    ++maps;
+    end = std::max(end, map.end);
+    filter = std::max(filter, map.filter_texels);
+  }
+  PlanOptions options;
+  if (maps == 0) return ShadowPlan{};
+  options.cascades = maps;
+  options.fit = fit;
+  const double side = std::sqrt(static_cast<double>(texels) / maps);
+  options.resolution.max_size = std::clamp(static_cast<int>(side), kLeastMapSize, kMaxMapSize);
+  options.clip_space = capture.clip_space;
+  options.filter.texels = std::min(filter, 0.25 * options.resolution.max_size);
+  // Shadows end where the engine's do.
+  Camera camera = frame.camera;
+  if (std::isfinite(end) && end > camera.near_depth) camera.far_depth = std::min(camera.far_depth, end);
+  const std::array<Box, 1> round{bounds_of(seen.points)};
+  const Boxes points(round);
+  const Boxes receivers = scene.receivers.empty() ? points : Boxes(scene.receivers);
+  const Boxes casters = scene.casters.empty() ? receivers : Boxes(scene.casters);
+  // Not by the points: a plan for them serves nothing between them, and here they are far apart.
+  return make_plan(camera, frame.lights[static_cast<std::size_t>(light)], {casters, receivers}, options);
+}
+
 double error_at(const ShadowPlan& plan, const Camera& camera, const glm::dvec3& point, double depth) {
   const int map = map_serving(plan, point, depth);
   if (map < 0) return std::numeric_limits<double>::infinity();
@@ -75,39 +140,70 @@ SeenSurfaces lit_part(const SeenSurfaces& seen, const LightLooks& looks) {
   return lit;
 }
 
+std::int64_t texels_of(const ShadowPlan& plan) {
+  std::int64_t texels = 0;
+  for (const ShadowMap& map : plan.maps()) texels += std::int64_t{map.width} * map.height;
+  return texels;
+}
+
 LightFigures figures_of(const Capture& capture, const CapturedFrame& frame, const SeenSurfaces& seen,
-                        int light) {
+                        const LightLooks& looks) {
   LightFigures figures;
-  figures.light = light;
-  const ShadowPlan plan = plan_of(capture, frame, light);
-  figures.maps = plan.map_count;
-  for (const ShadowMap& map : plan.maps()) figures.texels += std::int64_t{map.width} * map.height;
-  const CapturedScene& scene = capture.scenes[frame.scene];
+  figures.light = looks.light;
+  figures.plan = plan_of(capture, frame, looks.light);
+  figures.texels = texels_of(figures.plan);
   const View view{.camera = frame.camera, .points_world = seen.points};
-  figures.error = measure(plan, view, {});
-  for (int i = 0; i < plan.map_count; ++i) {
+  figures.error = measure(figures.plan, view, {});
+  for (std::size_t i = 0; i < looks.map.size(); ++i) {
     MeasureOptions one;
-    one.map = i;
-    figures.of_map.push_back(measure(plan, view, {}, one));
+    one.map = static_cast<int>(i);
+    figures.of_map.push_back({static_cast<int>(looks.map[i]), measure(figures.plan, view, {}, one)});
   }
-  const ShadowPlan beside = plan_beside(capture, frame, scene, seen, light, Fit::tight);
+  const auto planned = [&](Fit fit) -> std::optional<LightFigures::Planned> {
+    const ShadowPlan plan = plan_beside(capture, frame, capture.scenes[frame.scene], seen, looks.light, fit);
+    if (plan.status != PlanStatus::ok) return std::nullopt;
+    return LightFigures::Planned{fit, plan, texels_of(plan), measure(plan, view, {})};
+  };
+  figures.tight = planned(Fit::tight);
+  figures.stable = planned(Fit::stable);
   for (std::size_t p = 0; p < seen.points.size(); ++p) {
     SeenError& at = figures.seen.emplace_back();
     at.pixel = seen.pixels[p];
-    at.m = error_at(plan, frame.camera, seen.points[p], seen.depths[p]);
-    if (beside.status == PlanStatus::ok)
-      at.planned_m = error_at(beside, frame.camera, seen.points[p], seen.depths[p]);
-  }
-  for (const Fit fit : {Fit::tight, Fit::stable}) {
-    const ShadowPlan of_fit = plan_beside(capture, frame, scene, seen, light, fit);
-    if (of_fit.status != PlanStatus::ok) continue;
-    LightFigures::Planned& planned = figures.planned.emplace_back();
-    planned.fit = to_string(fit);
-    planned.maps = of_fit.map_count;
-    for (const ShadowMap& map : of_fit.maps()) planned.texels += std::int64_t{map.width} * map.height;
-    planned.error = measure(of_fit, view, {});
+    at.m = error_at(figures.plan, frame.camera, seen.points[p], seen.depths[p]);
+    if (figures.tight)
+      at.planned_m = error_at(figures.tight->plan, frame.camera, seen.points[p], seen.depths[p]);
   }
   return figures;
+}
+
+/// What the first frame leaves unknown.
+std::vector<std::string> notes_on(const Capture& capture, const CapturedFrame& frame,
+                                  const JudgedFrame& judged) {
+  std::vector<std::string> notes;
+  const SeenSurfaces& seen = judged.seen;
+  const auto lights_nothing = [](const LightLooks& looks) {
+    return std::none_of(looks.lit.begin(), looks.lit.end(), [](char lit) { return lit != 0; });
+  };
+  if (seen.points.empty()) {
+    notes.emplace_back(
+        "Neither points nor receivers are in view: only the matrices of maps could be looked at.");
+  } else {
+    if (std::any_of(judged.looks.begin(), judged.looks.end(), lights_nothing))
+      notes.emplace_back(
+          "A light lights nothing that is in view: only the matrices of its maps could be looked at.");
+    if (seen.guessed)
+      notes.emplace_back("The receivers' boxes stand for surfaces: visible points would say more.");
+    if (seen.normals.empty()) notes.emplace_back("Points have no normals: the bias was not checked.");
+  }
+  if (std::any_of(frame.maps.begin(), frame.maps.end(),
+                  [](const CapturedMap& map) { return map.stores_back; }))
+    notes.emplace_back(
+        "Maps store back faces: their bias was not checked, as the thickness of casters is not known.");
+  if (capture.scenes[frame.scene].casters.empty())
+    notes.emplace_back("There are no casters: nothing says whether near planes cut any.");
+  if (capture.frames.size() == 1)
+    notes.emplace_back("There is one frame: nothing says whether edges are stable.");
+  return notes;
 }
 
 }  // namespace
@@ -130,12 +226,12 @@ std::string percent(double share) {
   return digits(100.0 * share) + " %";
 }
 
-Finding finding_of(FindingKind kind, const LightLooks& looks, int map, double size, std::string_view unit,
-                   std::optional<glm::dvec2> pixel) {
+Finding finding_of(FindingKind kind, const LightLooks& looks, std::optional<std::size_t> map, double size,
+                   std::string_view unit, std::optional<glm::dvec2> pixel) {
   Finding finding;
   finding.kind = kind;
   finding.light = looks.light;
-  finding.map = map < 0 ? -1 : static_cast<int>(looks.map[static_cast<std::size_t>(map)]);
+  finding.map = map ? static_cast<int>(looks.map[*map]) : -1;
   finding.size = size;
   finding.unit = unit;
   finding.pixel = pixel;
@@ -184,68 +280,11 @@ std::vector<Finding> FindingList::sorted() const {
   return all;
 }
 
-ShadowPlan plan_of(const Capture& capture, const CapturedFrame& frame, int light) {
-  ShadowPlan plan;
-  plan.status = PlanStatus::ok;
-  plan.origin_world = frame.camera.position;
-  plan.clip_space = capture.clip_space;
-  plan.selection = frame.selection;
-  const Light& source = frame.lights[static_cast<std::size_t>(light)];
-  plan.light_direction = travel_at(source, frame.camera.position);
-  for (const CapturedMap& captured : frame.maps) {
-    if (captured.light != light) continue;
-    ShadowMap& map = plan.map[static_cast<std::size_t>(plan.map_count)] = ShadowMap{};
-    map.clip_from_world = captured.clip_from_world;
-    map.clip_from_camera_relative =
-        glm::mat4(captured.clip_from_world * glm::translate(glm::dmat4(1.0), frame.camera.position));
-    map.depth_begin = captured.begin;
-    map.depth_end = captured.end;
-    map.overlap = captured.overlap;
-    map.cascade = plan.map_count++;
-    map.width = captured.width;
-    map.height = captured.height;
-    map.warp = &warps::none;
-    if (const auto* sun = std::get_if<DirectionalLight>(&source)) {
-      map.light_world = glm::dvec4(-glm::normalize(sun->direction), 0.0);
-    } else if (const auto* spot = std::get_if<SpotLight>(&source)) {
-      map.light_world = glm::dvec4(spot->position, 1.0);
-      plan.light_direction = glm::normalize(spot->direction);
-    } else {
-      map.light_world = glm::dvec4(std::get<PointLight>(source).position, 1.0);
-    }
-  }
-  return plan;
-}
-
-ShadowPlan plan_beside(const Capture& capture, const CapturedFrame& frame, const CapturedScene& scene,
-                       const SeenSurfaces& seen, int light, Fit fit) {
-  std::int64_t texels = 0;
-  int maps = 0;
-  double end = 0.0, filter = 0.0;
-  for (const CapturedMap& map : frame.maps) {
-    if (map.light != light) continue;
-    texels += std::int64_t{map.width} * map.height;
-    ++maps;
-    end = std::max(end, map.end);
-    filter = std::max(filter, map.filter_texels);
-  }
-  PlanOptions options;
-  if (maps == 0) return ShadowPlan{};
-  options.cascades = maps;
-  options.fit = fit;
-  const double side = std::sqrt(static_cast<double>(texels) / maps);
-  options.resolution.max_size = std::clamp(static_cast<int>(side), kLeastMapSize, kMaxMapSize);
-  options.clip_space = capture.clip_space;
-  options.filter.texels = std::min(filter, 0.25 * options.resolution.max_size);
-  // Shadows end where the engine's do.
-  Camera camera = frame.camera;
-  if (std::isfinite(end) && end > camera.near_depth) camera.far_depth = std::min(camera.far_depth, end);
-  const std::array<Box, 1> round{bounds_of(seen.points)};
-  const Boxes points(round);
-  const Boxes receivers = scene.receivers.empty() ? points : Boxes(scene.receivers);
-  const Boxes casters = scene.casters.empty() ? receivers : Boxes(scene.casters);
-  // Not by the points: a plan for them serves nothing between them, and here they are far apart.
-  return make_plan(camera, frame.lights[static_cast<std::size_t>(light)], {casters, receivers}, options);
+std::vector<const LightFigures::Planned*> LightFigures::planned() const {
+  std::vector<const Planned*> all;
+  for (const std::optional<Planned>* one : {&tight, &stable})
+    if (*one) all.push_back(&**one);
+  return all;
 }
 
 Judgement judge(const Capture& capture) {
@@ -257,33 +296,12 @@ Judgement judge(const Capture& capture) {
     findings.begin_frame(static_cast<int>(f));
     std::unique_ptr<JudgedFrame> now = judge_frame(capture, frame, before.get(), findings);
     if (f == 0) {
-      const auto lights_nothing = [](const LightLooks& looks) {
-        return std::none_of(looks.lit.begin(), looks.lit.end(), [](char lit) { return lit != 0; });
-      };
-      if (!now->seen.points.empty() && std::any_of(now->looks.begin(), now->looks.end(), lights_nothing))
-        judgement.notes.push_back(
-            "A light lights nothing that is in view: only the matrices of its maps could be looked at.");
-      if (now->seen.points.empty())
-        judgement.notes.push_back(
-            "Neither points nor receivers are in view: only the matrices of maps could be looked at.");
-      else if (now->seen.guessed)
-        judgement.notes.push_back("The receivers' boxes stand for surfaces: visible points would say more.");
-      if (!now->seen.points.empty() && now->seen.normals.empty())
-        judgement.notes.push_back("Points have no normals: the bias was not checked.");
-      if (std::any_of(frame.maps.begin(), frame.maps.end(),
-                      [](const CapturedMap& map) { return map.stores_back; }))
-        judgement.notes.push_back(
-            "Maps store back faces: their bias was not checked, as the thickness of casters is not known.");
-      if (capture.scenes[frame.scene].casters.empty())
-        judgement.notes.push_back("There are no casters: nothing says whether near planes cut any.");
-      for (std::size_t light = 0; light < frame.lights.size(); ++light)
-        judgement.lights.push_back(
-            figures_of(capture, frame, lit_part(now->seen, now->looks[light]), static_cast<int>(light)));
+      judgement.notes = notes_on(capture, frame, *now);
+      for (const LightLooks& looks : now->looks)
+        judgement.lights.push_back(figures_of(capture, frame, lit_part(now->seen, looks), looks));
     }
     before = std::move(now);
   }
-  if (capture.frames.size() == 1)
-    judgement.notes.push_back("There is one frame: nothing says whether edges are stable.");
   judgement.findings = findings.sorted();
   return judgement;
 }

@@ -67,22 +67,28 @@ struct SeenError {
   double m = -1.0, planned_m = -1.0;
 };
 
-/// The errors of one light's maps in the first frame, beside those of a plan for the same texels.
+/// The errors of one light's maps in the first frame, beside those of gnomon's own.
 struct LightFigures {
-  int light = 0, maps = 0;
+  int light = 0;
+  ShadowPlan plan;  ///< the maps as data for measure() and a renderer, in the file's order
   std::int64_t texels = 0;
   AliasingStats error;
-  std::vector<AliasingStats> of_map;  ///< in the order of the file's maps of this light
-  /// gnomon's, for the same camera and as many maps of as many texels: fitted to each view, and on a grid
-  /// that stays. None where there is no plan.
+  struct OfMap {
+    int map;  ///< index in the frame
+    AliasingStats error;
+  };
+  std::vector<OfMap> of_map;
+  /// gnomon's, for the same camera and as many maps of as many texels.
   struct Planned {
-    std::string_view fit;
-    int maps = 0;
+    Fit fit;
+    ShadowPlan plan;
     std::int64_t texels = 0;
     AliasingStats error;
   };
-  std::vector<Planned> planned;
-  std::vector<SeenError> seen;
+  std::optional<Planned> tight, stable;  ///< fitted to each view, and on a grid that stays; none: no plan
+  std::vector<SeenError> seen;           ///< `planned_m`: of `tight`
+  /// Those that there are.
+  [[nodiscard]] std::vector<const Planned*> planned() const;
 };
 
 struct Judgement {
@@ -90,13 +96,6 @@ struct Judgement {
   std::vector<Finding> findings;
   std::vector<std::string> notes;  ///< what could not be judged, and why
 };
-
-/// The maps of one light as a plan: data for measure() and for a renderer. Its maps are in the file's order.
-[[nodiscard]] ShadowPlan plan_of(const Capture& capture, const CapturedFrame& frame, int light);
-/// gnomon's plan for the frame's camera and light, with as many maps and texels.
-[[nodiscard]] ShadowPlan plan_beside(const Capture& capture, const CapturedFrame& frame,
-                                     const CapturedScene& scene, const SeenSurfaces& seen, int light,
-                                     Fit fit);
 
 /// Judges all lights and frames.
 [[nodiscard]] Judgement judge(const Capture& capture);

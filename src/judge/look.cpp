@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "base/travel.hpp"
 #include "geometry/matrix.hpp"
-#include "geometry/vector.hpp"
 
 namespace gnomon::judge {
 namespace {
@@ -26,13 +26,6 @@ void fill_texel(const glm::dvec3& travel, Look& look) {
 
 bool Look::inside() const noexcept {
   return w > 0.0 && std::abs(clip.x) <= 1.0 + kRim && std::abs(clip.y) <= 1.0 + kRim;
-}
-
-glm::dvec3 travel_at(const Light& light, const glm::dvec3& point) {
-  if (const auto* sun = std::get_if<DirectionalLight>(&light)) return glm::normalize(sun->direction);
-  const auto* spot = std::get_if<SpotLight>(&light);
-  const glm::dvec3 position = spot != nullptr ? spot->position : std::get<PointLight>(light).position;
-  return safe_normalize(point - position, {0.0, -1.0, 0.0});
 }
 
 double depth_of(double z, const ClipSpace& space) noexcept {

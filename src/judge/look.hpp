@@ -25,9 +25,6 @@ struct Look {
   [[nodiscard]] bool inside() const noexcept;
 };
 
-/// Way of the light at a point, unit.
-[[nodiscard]] glm::dvec3 travel_at(const Light& light, const glm::dvec3& point);
-
 [[nodiscard]] Look look_at(const CapturedMap& map, const ClipSpace& space, const Light& light,
                            const glm::dvec3& point);
 
@@ -43,6 +40,7 @@ struct LightLooks {
   std::vector<char> counts;           ///< by point: on the lit side, within the depths that maps serve
   std::vector<int> chosen;            ///< by point: map of this light that the selection takes, -1: none
   std::vector<int> holding;           ///< by point: first map that holds it, in depth, too; -1: none
+  [[nodiscard]] const Light& source() const { return frame->lights[static_cast<std::size_t>(light)]; }
   [[nodiscard]] const CapturedMap& map_at(std::size_t i) const { return frame->maps[map[i]]; }
 };
 

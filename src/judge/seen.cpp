@@ -1,6 +1,7 @@
 // Which surfaces does the camera see? What a capture knows of them, or the first hits of rays on boxes.
 #include "judge/seen.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -8,69 +9,64 @@
 namespace gnomon::judge {
 namespace {
 
-/// Where a ray enters a box, or leaves it where it begins inside; infinite where it misses.
+/// A view depth on a box, and the side there.
 struct BoxHit {
-  double t = std::numeric_limits<double>::infinity();
+  double depth = std::numeric_limits<double>::infinity();
   glm::dvec3 normal{0.0};
 };
 
-BoxHit hit_of(const Box& box, const glm::dvec3& origin, const glm::dvec3& ray, double least, double most) {
-  double enter = -std::numeric_limits<double>::infinity(), leave = -enter;
-  glm::dvec3 enter_normal(0.0), leave_normal(0.0);
+BoxHit hit_of(const Box& box, const glm::dvec3& origin, const glm::dvec3& ray, const Camera& camera) {
+  const auto [enter, leave, enter_normal, leave_normal] = crossing_of(box, origin, ray);
+  if (!(enter <= leave)) return {};
+  if (enter >= camera.near_depth && enter <= camera.far_depth) return {enter, enter_normal};
+  // From the inside of a room its walls are seen.
+  if (enter < camera.near_depth && leave >= camera.near_depth && leave <= camera.far_depth)
+    return {leave, leave_normal};
+  return {};
+}
+
+SeenSurfaces first_hits(const Camera& camera, const std::vector<Box>& receivers) {
+  SeenSurfaces seen;
+  seen.guessed = true;
+  for_each_ray(camera, [&](const glm::dvec2& pixel, const glm::dvec3& origin, const glm::dvec3& ray) {
+    BoxHit nearest;
+    for (const Box& box : receivers) {
+      const BoxHit hit = hit_of(box, origin, ray, camera);
+      if (hit.depth < nearest.depth) nearest = hit;
+    }
+    if (!std::isfinite(nearest.depth)) return;
+    seen.points.push_back(origin + ray * nearest.depth);
+    seen.normals.push_back(nearest.normal);
+    seen.depths.push_back(nearest.depth);
+    seen.pixels.push_back(pixel);
+  });
+  return seen;
+}
+
+}  // namespace
+
+BoxCrossing crossing_of(const Box& box, const glm::dvec3& origin, const glm::dvec3& ray) noexcept {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BoxCrossing crossing{-kInfinity, kInfinity};
   for (int i = 0; i < 3; ++i) {
     if (ray[i] == 0.0) {
-      if (origin[i] < box.min[i] || origin[i] > box.max[i]) return {};
+      if (origin[i] < box.min[i] || origin[i] > box.max[i]) return {kInfinity, -kInfinity};
       continue;
     }
     const double a = (box.min[i] - origin[i]) / ray[i], b = (box.max[i] - origin[i]) / ray[i];
     glm::dvec3 normal(0.0);
     normal[i] = ray[i] > 0.0 ? -1.0 : 1.0;
-    if (std::min(a, b) > enter) {
-      enter = std::min(a, b);
-      enter_normal = normal;
+    if (std::min(a, b) > crossing.enter) {
+      crossing.enter = std::min(a, b);
+      crossing.enter_normal = normal;
     }
-    if (std::max(a, b) < leave) {
-      leave = std::max(a, b);
-      leave_normal = normal;
-    }
-  }
-  if (!(enter <= leave)) return {};
-  if (enter >= least && enter <= most) return {enter, enter_normal};
-  // From the inside of a room its walls are seen.
-  if (enter < least && leave >= least && leave <= most) return {leave, leave_normal};
-  return {};
-}
-
-SeenSurfaces first_hits(const CapturedFrame& frame, const CapturedScene& scene) {
-  SeenSurfaces seen;
-  seen.guessed = true;
-  const Camera& camera = frame.camera;
-  const CameraAxes axes = camera_axes(camera);
-  for (int row = 0; row < kRayRows; ++row) {
-    for (int column = 0; column < kRayColumns; ++column) {
-      const double across = (column + 0.5) / kRayColumns, down = (row + 0.5) / kRayRows;
-      const glm::dvec3 aside = axes.right * (camera.left + (camera.right - camera.left) * across) +
-                               axes.up * (camera.top + (camera.bottom - camera.top) * down);
-      const glm::dvec3 origin = camera.orthographic ? camera.position + aside : camera.position;
-      // Its length is that of one unit of depth.
-      const glm::dvec3 ray = camera.orthographic ? axes.forward : axes.forward + aside;
-      BoxHit nearest;
-      for (const Box& box : scene.receivers) {
-        if (box.empty()) continue;
-        const BoxHit hit = hit_of(box, origin, ray, camera.near_depth, camera.far_depth);
-        if (hit.t < nearest.t) nearest = hit;
-      }
-      if (!std::isfinite(nearest.t)) continue;
-      seen.points.push_back(origin + ray * nearest.t);
-      seen.normals.push_back(nearest.normal);
-      seen.depths.push_back(nearest.t);
-      seen.pixels.emplace_back(across * camera.width, down * camera.height);
+    if (std::max(a, b) < crossing.leave) {
+      crossing.leave = std::max(a, b);
+      crossing.leave_normal = normal;
     }
   }
-  return seen;
+  return crossing;
 }
-
-}  // namespace
 
 SeenSurfaces seen_surfaces(const Camera& camera, const std::vector<glm::dvec3>& points,
                            const std::vector<glm::dvec3>& normals) {
@@ -95,7 +91,7 @@ SeenSurfaces seen_surfaces(const Camera& camera, const std::vector<glm::dvec3>& 
 
 SeenSurfaces seen_surfaces(const CapturedFrame& frame, const CapturedScene& scene) {
   if (!scene.points.empty()) return seen_surfaces(frame.camera, scene.points, scene.normals);
-  return first_hits(frame, scene);
+  return first_hits(frame.camera, scene.receivers);
 }
 
 }  // namespace gnomon::judge

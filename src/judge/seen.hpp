@@ -20,6 +20,30 @@ struct SeenSurfaces {
 /// Rays across the image where boxes stand for surfaces.
 inline constexpr int kRayColumns = 96, kRayRows = 54;
 
+/// Calls `use(pixel, origin, ray)` for each of them. A ray is as long as one unit of depth.
+template <typename Use>
+void for_each_ray(const Camera& camera, Use&& use) {
+  const CameraAxes axes = camera_axes(camera);
+  for (int row = 0; row < kRayRows; ++row) {
+    for (int column = 0; column < kRayColumns; ++column) {
+      const double across = (column + 0.5) / kRayColumns, down = (row + 0.5) / kRayRows;
+      const glm::dvec3 aside = axes.right * (camera.left + (camera.right - camera.left) * across) +
+                               axes.up * (camera.top + (camera.bottom - camera.top) * down);
+      use(glm::dvec2(across * camera.width, down * camera.height),
+          camera.orthographic ? camera.position + aside : camera.position,
+          camera.orthographic ? axes.forward : axes.forward + aside);
+    }
+  }
+}
+
+/// Where a ray enters a box and leaves it, lengths of the ray, and the sides there; enter > leave: nowhere.
+struct BoxCrossing {
+  double enter, leave;
+  glm::dvec3 enter_normal{0.0}, leave_normal{0.0};
+};
+[[nodiscard]] BoxCrossing crossing_of(const Box& box, const glm::dvec3& origin,
+                                      const glm::dvec3& ray) noexcept;
+
 [[nodiscard]] SeenSurfaces seen_surfaces(const CapturedFrame& frame, const CapturedScene& scene);
 /// Those of these points that are in the image.
 [[nodiscard]] SeenSurfaces seen_surfaces(const Camera& camera, const std::vector<glm::dvec3>& points,

@@ -162,10 +162,9 @@ TEST(SoundCaptures, have_plans_beside_them_with_less_error) {
     const Judgement judgement = judged(shipped(name));
     ASSERT_EQ(judgement.lights.size(), 1u);
     const LightFigures& light = judgement.lights[0];
-    ASSERT_FALSE(light.planned.empty());
-    EXPECT_EQ(light.planned[0].fit, "tight");
-    EXPECT_LE(light.planned[0].texels, light.texels);
-    EXPECT_LT(light.planned[0].error.mean, light.error.mean) << name;
+    ASSERT_TRUE(light.tight);
+    EXPECT_LE(light.tight->texels, light.texels);
+    EXPECT_LT(light.tight->error.mean, light.error.mean) << name;
   }
 }
 

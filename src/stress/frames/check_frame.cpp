@@ -78,7 +78,9 @@ render::FrameOptions without_kept(render::FrameOptions options) {
   return options;
 }
 
-bool keeps(const FrameSetting& setting) {
+/// Whether a frame has the bits of one that keeps nothing: texels that are scrolled round elsewhere, and a
+/// mean is of more than one frame.
+bool keeps_bits(const FrameSetting& setting) {
   return !setting.options.prune.has(PruneRule::scrolled_maps) && setting.accumulated == 0;
 }
 
@@ -100,7 +102,7 @@ void compare_depths(FrameStage& stage, const render::Renderer& other, std::strin
 
 /// The same frame by a renderer that keeps nothing.
 void check_kept(FrameStage& stage, FrameReport& report) {
-  if (!keeps(stage.setting())) return;
+  if (!keeps_bits(stage.setting())) return;
   const std::vector<float> mask = stage.keeping().mask().values;
   stage.draw(stage.redrawing(), without_kept(stage.setting().options));
   ++report.counts().kept;
@@ -111,7 +113,7 @@ void check_kept(FrameStage& stage, FrameReport& report) {
 /// By a renderer made of the scene as it stands. Pages lie in other slots there, so that only their texels
 /// are equal.
 void check_anew(FrameStage& stage, FrameReport& report) {
-  if (!keeps(stage.setting()) || !stage.same_scale()) return;
+  if (!keeps_bits(stage.setting()) || !stage.same_scale()) return;
   const std::unique_ptr<render::Renderer> anew = stage.anew();
   stage.draw(*anew, stage.setting().options);
   ++report.counts().anew;

@@ -120,12 +120,11 @@ Receiver3 receiver_of(const FrameStage& stage, const Truth& truth, const FloatIm
 }
 
 /// Other maps than the one that the mask names, which a transition may have read.
-std::vector<int> others_read(const FrameStage& stage, int map, const Receiver3& receiver) {
+std::vector<int> others_read(const FrameStage& stage, int map) {
   const ShadowPlan& plan = stage.maps();
   if (stage.setting().options.transition == render::SplitTransition::cut || stage.by_pages() ||
       plan.selection != MapSelection::view_depth)
     return {};
-  (void)receiver;
   std::vector<int> maps;
   if (map + 1 < plan.map_count && plan.map[static_cast<std::size_t>(map) + 1].overlap > 0.0)
     maps.push_back(map + 1);
@@ -135,7 +134,7 @@ std::vector<int> others_read(const FrameStage& stage, int map, const Receiver3& 
 /// What the mask must be, by all maps that may have been read.
 Must must_be(const FrameStage& stage, Spaces& spaces, int map, const Receiver3& receiver) {
   const Must must = spaces.decide(map, receiver);
-  for (const int other : others_read(stage, map, receiver)) {
+  for (const int other : others_read(stage, map)) {
     if (must == Must::undecided || spaces.decide(other, receiver) != must) return Must::undecided;
   }
   return must;

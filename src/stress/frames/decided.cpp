@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/travel.hpp"
 #include "gnomon/extend/shape.hpp"
 #include "gnomon/study/bias.hpp"
 
@@ -25,13 +26,6 @@ constexpr double kLeastCosine = 0.05;
 
 double largest(const glm::dvec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
-}
-
-glm::dvec3 travel_at(const Light& light, const glm::dvec3& point_world) {
-  if (const auto* sun = std::get_if<DirectionalLight>(&light)) return glm::normalize(sun->direction);
-  const auto* spot = std::get_if<SpotLight>(&light);
-  return glm::normalize(point_world -
-                        (spot != nullptr ? spot->position : std::get<PointLight>(light).position));
 }
 
 }  // namespace
@@ -100,6 +94,12 @@ MapSpace::MapSpace(const ShadowMap& map, const ClipSpace& clip_space, const glm:
   }
 }
 
+double MapSpace::row_terms(int row) const {
+  return std::abs(clip_from_relative_[0][row]) * extent_.x +
+         std::abs(clip_from_relative_[1][row]) * extent_.y +
+         std::abs(clip_from_relative_[2][row]) * extent_.z + std::abs(clip_from_relative_[3][row]);
+}
+
 bool MapSpace::look_at(const Receiver3& r, double reach_texels, Look& look) const {
   const glm::dvec4 clip = clip_from_relative_ * glm::dvec4(r.point, 1.0);
   if (!(clip.w > 0.0)) return false;
@@ -114,14 +114,9 @@ bool MapSpace::look_at(const Receiver3& r, double reach_texels, Look& look) cons
   look.texel_world = texel_extent_world(map_.clip_from_world, grid, look.travel, r.point + eye_);
   // What a float's matrix and products leave of the place, in ndc.
   glm::dvec2 error;
-  const auto terms = [&](int row) {
-    return std::abs(clip_from_relative_[0][row]) * extent_.x +
-           std::abs(clip_from_relative_[1][row]) * extent_.y +
-           std::abs(clip_from_relative_[2][row]) * extent_.z + std::abs(clip_from_relative_[3][row]);
-  };
   for (int axis = 0; axis < 2; ++axis)
     error[axis] =
-        kRoundings * kFloatStep * (terms(axis) + std::abs(look.ndc_point[axis]) * terms(3)) / clip.w;
+        kRoundings * kFloatStep * (row_terms(axis) + std::abs(look.ndc_point[axis]) * row_terms(3)) / clip.w;
   const double off =
       std::max(std::abs(place.texel_from_ndc[0].x) * error.x + std::abs(place.texel_from_ndc[1].x) * error.y,
                std::abs(place.texel_from_ndc[0].y) * error.x + std::abs(place.texel_from_ndc[1].y) * error.y);
@@ -177,14 +172,9 @@ void MapSpace::part(std::uint32_t triangle, const Receiver3& r, const Rectangle&
 }
 
 double MapSpace::depth_rounding(const Receiver3& r, const Look& look, bool linear) const {
-  const auto terms = [&](int row) {
-    return std::abs(clip_from_relative_[0][row]) * extent_.x +
-           std::abs(clip_from_relative_[1][row]) * extent_.y +
-           std::abs(clip_from_relative_[2][row]) * extent_.z + std::abs(clip_from_relative_[3][row]);
-  };
   const double along = std::abs(ndc_depth_per_world_unit(map_.clip_from_world, look.travel, r.point + eye_));
-  const double ndc =
-      kRoundings * kFloatStep * (depth_unit_ + (terms(2) + std::abs(look.ndc_point.z) * terms(3)) / look.w);
+  const double ndc = kRoundings * kFloatStep *
+                     (depth_unit_ + (row_terms(2) + std::abs(look.ndc_point.z) * row_terms(3)) / look.w);
   double world = along > 0.0 ? ndc / along : kInfinite;
   // Even depths round over all of the range alike, however near the light.
   if (linear) world = std::max(world, kRoundings * kFloatStep * map_.depth_range_world);

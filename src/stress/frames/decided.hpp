@@ -83,6 +83,8 @@ class MapSpace {
   struct Look;
   using Polygon = std::vector<Corner>;
 
+  /// Largest sum of the sizes of a row's terms at any corner: what a float's product with it rounds by.
+  [[nodiscard]] double row_terms(int row) const;
   /// Texels that the offset along the normal may move a look-up.
   [[nodiscard]] double moved_by_offset(const Receiver3& receiver, const BiasOptions& bias) const;
   [[nodiscard]] bool look_at(const Receiver3& receiver, double reach_texels, Look& look) const;

@@ -66,7 +66,6 @@ ShadowPlan as_seen_by(const ShadowPlan& plan, const Camera& camera) {
 }  // namespace
 
 void check_views(const Case& input, Report& report) {
-  // Each camera of a plan has a frustum of its own, or none of the options that are for one.
   check_alone(input, report);
   for (const bool aside : {false, true}) {
     const std::vector<Camera> cameras = cameras_of(input, aside);

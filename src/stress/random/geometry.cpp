@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/travel.hpp"
+
 namespace gnomon::stress {
 namespace {
 
@@ -199,10 +201,9 @@ LightAt::LightAt(const Light& light, const View& view) {
   }
   parallel_ = false;
   const auto* spot = std::get_if<SpotLight>(&light);
-  const glm::dvec3 position = spot != nullptr ? spot->position : std::get<PointLight>(light).position;
   range_ = spot != nullptr ? spot->range : std::get<PointLight>(light).range;
-  apex_ = Real3(position) - view.eye;
-  world_ = length(Real3(position)) + length(view.eye);
+  apex_ = Real3(position_of(light)) - view.eye;
+  world_ = length(Real3(position_of(light))) + length(view.eye);
   if (spot == nullptr) return;
   cone_ = true;
   const Real3 d(spot->direction);

@@ -6,8 +6,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <variant>
 
+#include "base/travel.hpp"
 #include "bias/bias_sweep.hpp"
 #include "command.hpp"
 #include "compare/measure.hpp"
@@ -89,12 +89,6 @@ Sweep sweep_of(const BiasRequest& request) {
   return sweep;
 }
 
-glm::dvec3 light_direction(const Light& light, const glm::dvec3& point) {
-  if (const auto* sun = std::get_if<DirectionalLight>(&light)) return glm::normalize(sun->direction);
-  const auto* spot = std::get_if<SpotLight>(&light);
-  return glm::normalize(point - (spot != nullptr ? spot->position : std::get<PointLight>(light).position));
-}
-
 /// From each pixel in shadow to the nearest thing that shadows it, world units along the light; below zero:
 /// lit.
 std::vector<double> blocker_distances(const Stage& stage, const FrameTruth& truth) {
@@ -104,7 +98,7 @@ std::vector<double> blocker_distances(const Stage& stage, const FrameTruth& trut
     const trace::SurfacePoint& point = truth.points.pixels[i];
     trace::Ray ray;
     ray.origin = point.position;
-    ray.direction = -light_direction(stage.light(), point.position);
+    ray.direction = -travel_at(stage.light(), point.position);
     ray.except = point.triangle;
     const trace::Hit hit = stage.tracer().first_hit(ray);
     if (hit.triangle != trace::kNoTriangle) distances[i] = hit.t;
@@ -127,7 +121,7 @@ double contact_gap(const Planned& plan, const Stage& stage, const FrameTruth& tr
     if (blocker[i] < 0.0 || map == nullptr) continue;
     const glm::dvec3& point = truth.points.pixels[i].position;
     const glm::dvec2 texel =
-        texel_extent_world(map->clip_from_world, map->texels(), light_direction(stage.light(), point), point);
+        texel_extent_world(map->clip_from_world, map->texels(), travel_at(stage.light(), point), point);
     contacts.push_back({blocker[i] / std::max(texel.x, texel.y), mask.values[2 * i] > 0.5f});
   }
   std::sort(contacts.begin(), contacts.end(),

@@ -17,20 +17,23 @@ struct DrawnErrors {
 
 /// One light of the first frame, drawn with hard comparison and the default bias: maps alone differ.
 struct DrawnLightErrors {
-  int light = 0;
   std::uint64_t pixels = 0;
   DrawnErrors captured;
   std::optional<DrawnErrors> planned;
   std::string picture, planned_picture;  ///< PNG: grey where right, coloured where wrong
 };
 
+struct SceneJudgement {
+  judge::Judgement judgement;
+  std::vector<DrawnLightErrors> drawn;  ///< by light; empty without a scene
+  [[nodiscard]] const DrawnLightErrors* drawn_of(const judge::LightFigures& light) const {
+    return drawn.empty() ? nullptr : &drawn[static_cast<std::size_t>(light.light)];
+  }
+};
+
 /// Fills in what the capture does not know: boxes, and visible points with their normals.
 /// Then judges, and draws the first frame. Throws std::runtime_error where the scene or a context cannot be
 /// had.
-struct SceneJudgement {
-  judge::Judgement judgement;
-  std::vector<DrawnLightErrors> lights;
-};
 [[nodiscard]] SceneJudgement judge_in_scene(judge::Capture& capture, const std::string& scene,
                                             const std::string& context);
 /// What --context may name here.

@@ -61,32 +61,32 @@ Json drawn_json(const DrawnErrors& errors) {
           {"expected", errors.expected}};
 }
 
-Json judgement_json(const judge::Capture& capture, const judge::Judgement& judgement,
-                    const std::vector<DrawnLightErrors>& drawn) {
+Json light_json(const judge::LightFigures& light, const DrawnLightErrors* drawn) {
+  Json maps = Json::array();
+  for (const judge::LightFigures::OfMap& map : light.of_map) maps.push_back(error_json(map.error));
+  Json json{{"light", light.light},
+            {"maps", light.plan.map_count},
+            {"texels", light.texels},
+            {"m", error_json(light.error)},
+            {"m_of_maps", maps}};
+  for (const judge::LightFigures::Planned* planned : light.planned())
+    json["gnomon"].push_back({{"fit", to_string(planned->fit)},
+                              {"maps", planned->plan.map_count},
+                              {"texels", planned->texels},
+                              {"m", error_json(planned->error)}});
+  if (drawn == nullptr) return json;
+  json["drawn"] = {{"pixels", drawn->pixels}, {"capture", drawn_json(drawn->captured)}};
+  if (drawn->planned) json["drawn"]["gnomon"] = drawn_json(*drawn->planned);
+  return json;
+}
+
+Json judgement_json(const judge::Capture& capture, const SceneJudgement& result) {
   Json lights = Json::array(), findings = Json::array();
-  for (const judge::LightFigures& light : judgement.lights) {
-    Json maps = Json::array();
-    for (const AliasingStats& map : light.of_map) maps.push_back(error_json(map));
-    Json json{{"light", light.light},
-              {"maps", light.maps},
-              {"texels", light.texels},
-              {"m", error_json(light.error)},
-              {"m_of_maps", maps}};
-    for (const judge::LightFigures::Planned& planned : light.planned)
-      json["gnomon"].push_back({{"fit", planned.fit},
-                                {"maps", planned.maps},
-                                {"texels", planned.texels},
-                                {"m", error_json(planned.error)}});
-    for (const DrawnLightErrors& errors : drawn) {
-      if (errors.light != light.light) continue;
-      json["drawn"] = {{"pixels", errors.pixels}, {"capture", drawn_json(errors.captured)}};
-      if (errors.planned) json["drawn"]["gnomon"] = drawn_json(*errors.planned);
-    }
-    lights.push_back(json);
-  }
-  for (const judge::Finding& finding : judgement.findings) findings.push_back(finding_json(finding));
+  for (const judge::LightFigures& light : result.judgement.lights)
+    lights.push_back(light_json(light, result.drawn_of(light)));
+  for (const judge::Finding& finding : result.judgement.findings) findings.push_back(finding_json(finding));
   return {{"capture", capture.name}, {"engine", capture.engine}, {"frames", capture.frames.size()},
-          {"lights", lights},        {"findings", findings},     {"notes", judgement.notes}};
+          {"lights", lights},        {"findings", findings},     {"notes", result.judgement.notes}};
 }
 
 std::string error_text(const AliasingStats& error) {
@@ -110,50 +110,54 @@ std::string also_text(const judge::Finding& finding) {
   return text.empty() ? text : text + "]";
 }
 
-void print_text(const judge::Capture& capture, const judge::Judgement& judgement,
-                const std::vector<DrawnLightErrors>& drawn) {
+std::string maps_text(int maps, std::int64_t texels, const AliasingStats& error) {
+  return std::to_string(maps) + (maps == 1 ? " map, " : " maps, ") + std::to_string(texels) +
+         " texels; m: " + error_text(error);
+}
+
+void print_finding(const judge::Finding& finding, std::size_t frames) {
+  std::string place = also_text(finding);
+  if (frames > 1)
+    place += " [" + std::to_string(finding.frames) + " of " + std::to_string(frames) + " frames, worst in " +
+             std::to_string(finding.frame) + "]";
+  if (finding.pixel)
+    place += " [pixel " + std::to_string(std::lround(finding.pixel->x)) + "," +
+             std::to_string(std::lround(finding.pixel->y)) + "]";
+  print_line(std::string(to_string(finding.kind)) + ": " + finding.what + place);
+  print_line("  " + finding.change);
+}
+
+void print_text(const judge::Capture& capture, const SceneJudgement& result) {
+  const judge::Judgement& judgement = result.judgement;
   std::string head = capture.name.empty() ? std::string("capture") : one_line(capture.name);
   if (!capture.engine.empty()) head += " (" + one_line(capture.engine) + ")";
   print_line(head + ": " + std::to_string(capture.frames.size()) +
              (capture.frames.size() == 1 ? " frame" : " frames"));
   for (const judge::LightFigures& light : judgement.lights) {
-    print_line("light " + std::to_string(light.light) + ": " + std::to_string(light.maps) +
-               (light.maps == 1 ? " map, " : " maps, ") + std::to_string(light.texels) +
-               " texels; m: " + error_text(light.error));
-    for (const judge::LightFigures::Planned& planned : light.planned)
-      print_line("  gnomon, fit " + std::string(planned.fit) + ": " + std::to_string(planned.maps) +
-                 (planned.maps == 1 ? " map, " : " maps, ") + std::to_string(planned.texels) +
-                 " texels; m: " + error_text(planned.error));
-    for (const DrawnLightErrors& errors : drawn)
-      if (errors.light == light.light) print_drawn(errors);
+    print_line("light " + std::to_string(light.light) + ": " +
+               maps_text(light.plan.map_count, light.texels, light.error));
+    for (const judge::LightFigures::Planned* planned : light.planned())
+      print_line("  gnomon, fit " + std::string(to_string(planned->fit)) + ": " +
+                 maps_text(planned->plan.map_count, planned->texels, planned->error));
+    if (const DrawnLightErrors* drawn = result.drawn_of(light)) print_drawn(*drawn);
   }
-  for (const judge::Finding& finding : judgement.findings) {
-    std::string place = also_text(finding);
-    if (finding.frames > 1 || capture.frames.size() > 1)
-      place += " [" + std::to_string(finding.frames) + " of " + std::to_string(capture.frames.size()) +
-               " frames, worst in " + std::to_string(finding.frame) + "]";
-    if (finding.pixel)
-      place += " [pixel " + std::to_string(std::lround(finding.pixel->x)) + "," +
-               std::to_string(std::lround(finding.pixel->y)) + "]";
-    print_line(std::string(to_string(finding.kind)) + ": " + finding.what + place);
-    print_line("  " + finding.change);
-  }
+  for (const judge::Finding& finding : judgement.findings) print_finding(finding, capture.frames.size());
   if (judgement.findings.empty()) print_line("nothing found");
   for (const std::string& note : judgement.notes) print_line("note: " + note);
 }
 
 /// Whether a limit is passed, as engines' own checks ask for.
-bool beyond_limits(const JudgeRequest& request, const judge::Judgement& judgement,
-                   const std::vector<DrawnLightErrors>& drawn) {
-  for (const DrawnLightErrors& errors : drawn)
-    if (request.max_misclassified > 0.0 && 100.0 * errors.captured.wrong > request.max_misclassified)
-      return true;
-  const auto errors = std::count_if(judgement.findings.begin(), judgement.findings.end(),
+bool beyond_limits(const JudgeRequest& request, const SceneJudgement& result) {
+  const auto errors = std::count_if(result.judgement.findings.begin(), result.judgement.findings.end(),
                                     [](const judge::Finding& f) { return !is_waste(f.kind); });
   if (request.max_findings >= 0.0 && static_cast<double>(errors) > request.max_findings) return true;
-  if (!(request.max_m > 0.0)) return false;
-  for (const judge::LightFigures& light : judgement.lights) {
-    if (!(light.error.p95 <= request.max_m)) return true;
+  for (const judge::LightFigures& light : result.judgement.lights) {
+    // Also an error that is no number is beyond a limit.
+    if (request.max_m > 0.0 && !(light.error.p95 <= request.max_m)) return true;
+    const DrawnLightErrors* drawn = result.drawn_of(light);
+    if (request.max_misclassified > 0.0 && drawn != nullptr &&
+        100.0 * drawn->captured.wrong > request.max_misclassified)
+      return true;
   }
   return false;
 }
@@ -167,21 +171,20 @@ int run_judge(const JudgeRequest& request) {
   } else {
     result = judge_in_scene(capture, request.scene, request.context);
   }
-  const judge::Judgement& judgement = result.judgement;
-  const Json json = judgement_json(capture, judgement, result.lights);
+  const Json json = judgement_json(capture, result);
   if (request.json) {
     print_line(json.dump());
   } else {
-    print_text(capture, judgement, result.lights);
+    print_text(capture, result);
   }
   if (!request.out.empty()) {
     const std::filesystem::path folder(request.out);
     write_file(folder / "judge.json", json.dump(2) + "\n");
-    write_file(folder / "judge.html", judge_page(capture, judgement, result.lights));
+    write_file(folder / "judge.html", judge_page(capture, result));
     if (!request.json) print_line("page: " + (folder / "judge.html").string());
   }
   flush_output();
-  return beyond_limits(request, judgement, result.lights) ? 1 : 0;
+  return beyond_limits(request, result) ? 1 : 0;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 using report::escaped;
 using report::short_number;
 
-/// Colours by m, from fine texels to coarse ones: told apart by any eye, and in grey.
+/// Colours by m, from fine texels to coarse ones: distinct to any eye.
 struct HeatClass {
   double below;
   std::string_view color, name;
@@ -55,7 +55,7 @@ std::string squares(const std::vector<glm::dvec2>& at, double size, std::string_
 
 /// A share of the image that one point stands for: the points are all over it.
 double square_side(const Camera& camera, std::size_t points) {
-  constexpr double kRays = 5184.0;
+  constexpr double kRays = double{judge::kRayColumns} * judge::kRayRows;
   const double each =
       static_cast<double>(camera.width) * camera.height / std::max(static_cast<double>(points), kRays);
   return std::ceil(std::sqrt(each));
@@ -125,19 +125,19 @@ std::string figures_table(const judge::LightFigures& light) {
   std::string out = report::scroll_box("Errors of light " + std::to_string(light.light)) +
                     "<table><thead><tr><th>maps</th><th>texels</th><th>m p50</th><th>p95</th>"
                     "<th>max</th></tr></thead><tbody>";
-  out += "<tr><td>the capture's " + std::to_string(light.maps) + "</td><td>" + std::to_string(light.texels) +
-         "</td>" + error_cells(light.error) + "</tr>";
-  for (std::size_t i = 0; i < light.of_map.size() && light.of_map.size() > 1; ++i)
-    out += "<tr><td>&nbsp; its " + std::to_string(i + 1) +
-           (i == 0   ? "st"
-            : i == 1 ? "nd"
-            : i == 2 ? "rd"
-                     : "th") +
-           "</td><td></td>" + error_cells(light.of_map[i]) + "</tr>";
-  for (const judge::LightFigures::Planned& planned : light.planned)
-    out += "<tr class=\"best\"><td>gnomon's " + std::to_string(planned.maps) + ", fit " +
-           std::string(planned.fit) + "</td><td>" + std::to_string(planned.texels) + "</td>" +
-           error_cells(planned.error) + "</tr>";
+  const auto row = [&](const std::string& name, std::int64_t texels, const AliasingStats& error) {
+    return "<td>" + name + "</td><td>" + (texels > 0 ? std::to_string(texels) : "") + "</td>" +
+           error_cells(error) + "</tr>";
+  };
+  out += "<tr>" + row("the capture's " + std::to_string(light.plan.map_count), light.texels, light.error);
+  if (light.of_map.size() > 1) {
+    for (const judge::LightFigures::OfMap& map : light.of_map)
+      out += "<tr>" + row("&nbsp; map " + std::to_string(map.map), 0, map.error);
+  }
+  for (const judge::LightFigures::Planned* planned : light.planned())
+    out += "<tr class=\"best\">" + row("gnomon's " + std::to_string(planned->plan.map_count) + ", fit " +
+                                           std::string(to_string(planned->fit)),
+                                       planned->texels, planned->error);
   return out + "</tbody></table>" + std::string(report::kScrollBoxEnd);
 }
 
@@ -178,7 +178,8 @@ std::string drawn_section(const DrawnLightErrors& drawn) {
   std::string out =
       "<h3>Drawn, against exact rays</h3>\n<p class=\"note\">Hard comparison with gnomon's default bias, so "
       "that "
-      "maps alone differ. Orange: false light. Blue: false shadow.</p>\n<div class=\"pair\">" +
+      "maps alone differ. Orange: false light. Blue: false shadow. Violet: rounding decides.</p>\n<div "
+      "class=\"pair\">" +
       drawn_picture(drawn.picture, drawn.captured, "The capture's maps");
   if (drawn.planned) out += drawn_picture(drawn.planned_picture, *drawn.planned, "gnomon's plan, fit tight");
   return out + "</div>\n";
@@ -191,15 +192,14 @@ std::string light_section(const judge::Capture& capture, const judge::Judgement&
   if (light.seen.empty()) return out;
   out += "<div class=\"pair\">" + picture(camera, light.seen, false, marks_of(judgement, light.light, camera),
                                           "The capture's maps, frame 0");
-  if (!light.planned.empty())
-    out += picture(camera, light.seen, true, "", "gnomon's plan, fit tight, as many texels");
+  if (light.tight) out += picture(camera, light.seen, true, "", "gnomon's plan, fit tight, as many texels");
   return out + "</div>\n" + legend();
 }
 
 }  // namespace
 
-std::string judge_page(const judge::Capture& capture, const judge::Judgement& judgement,
-                       const std::vector<DrawnLightErrors>& drawn) {
+std::string judge_page(const judge::Capture& capture, const SceneJudgement& result) {
+  const judge::Judgement& judgement = result.judgement;
   const std::string css = style(), name = capture.name.empty() ? std::string("Shadow maps") : capture.name;
   std::string out =
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta "
@@ -215,8 +215,7 @@ std::string judge_page(const judge::Capture& capture, const judge::Judgement& ju
   out += "<h2>Findings</h2>\n" + findings_list(capture, judgement);
   for (const judge::LightFigures& light : judgement.lights) {
     out += light_section(capture, judgement, light);
-    for (const DrawnLightErrors& errors : drawn)
-      if (errors.light == light.light) out += drawn_section(errors);
+    if (const DrawnLightErrors* drawn = result.drawn_of(light)) out += drawn_section(*drawn);
   }
   if (!judgement.notes.empty()) {
     out += "<h2>Not checked</h2>\n<ul>\n";

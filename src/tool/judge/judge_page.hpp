@@ -10,7 +10,6 @@
 namespace gnomon::tool {
 
 /// One file of HTML that needs nothing else.
-[[nodiscard]] std::string judge_page(const judge::Capture& capture, const judge::Judgement& judgement,
-                                     const std::vector<DrawnLightErrors>& drawn);
+[[nodiscard]] std::string judge_page(const judge::Capture& capture, const SceneJudgement& result);
 
 }  // namespace gnomon::tool

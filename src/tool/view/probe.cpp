@@ -1,11 +1,13 @@
 // What does the plan do at one point of the picture, and what do exact rays report there?
 #include "probe.hpp"
-#include "gnomon/extend/shape.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <limits>
+
+#include "base/travel.hpp"
+#include "gnomon/extend/shape.hpp"
 
 namespace gnomon::tool::view {
 namespace {
@@ -44,8 +46,7 @@ trace::Ray ray_to_light(const trace::Tracer& tracer, const Light& light, const g
     ray.direction = -glm::normalize(sun->direction);
     return ray;
   }
-  const auto* spot = std::get_if<SpotLight>(&light);
-  ray.direction = (spot != nullptr ? spot->position : std::get<PointLight>(light).position) - ray.origin;
+  ray.direction = position_of(light) - ray.origin;
   ray.end = 1.0;
   return ray;
 }
