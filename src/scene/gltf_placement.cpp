@@ -37,7 +37,6 @@ PlacementSource::Places places_in(const json& source, const json& node, const st
     places.translation = attributes.value("TRANSLATION", -1);
     places.rotation = attributes.value("ROTATION", -1);
     places.scale = attributes.value("SCALE", -1);
-    places.any = places.translation >= 0 || places.rotation >= 0 || places.scale >= 0;
   } catch (const Refusal& e) {
     warn(warnings, std::string(e.what()) + ", the mesh is shown once");
   }
@@ -64,7 +63,7 @@ std::uint64_t place_count(const tinygltf::Model& model, const PlacementSource::P
     if (accessor >= 0)
       count = std::min<std::uint64_t>(count, model.accessors[static_cast<std::size_t>(accessor)].count);
   }
-  return places.any ? count : 1;
+  return places.any() ? count : 1;
 }
 
 std::vector<glm::dmat4> places_of(const tinygltf::Model& model, const PlacementSource::Places& places,

@@ -18,8 +18,8 @@ namespace gnomon::detail {
 struct PlacementSource {
   /// Accessors of EXT_mesh_gpu_instancing; -1: none.
   struct Places {
-    bool any = false;
     int translation = -1, rotation = -1, scale = -1;
+    [[nodiscard]] bool any() const noexcept { return translation >= 0 || rotation >= 0 || scale >= 0; }
   };
   std::vector<bool> hidden;  ///< by KHR_node_visibility, with all that hangs on it
   std::vector<Places> places;

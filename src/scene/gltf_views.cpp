@@ -11,6 +11,7 @@
 #include <optional>
 
 #include "gltf_check.hpp"
+#include "gltf_nodes.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {
@@ -37,24 +38,22 @@ std::string name_of(const json& owner) {
 
 constexpr double kLargest = 1e30;
 
-LightSource light_in(const json& light) {
-  LightSource out;
-  out.name = name_of(light);
+SceneLight light_in(const json& light) {
   const std::string type = light.contains("type") && light["type"].is_string() ? light["type"] : json("");
-  if (type != "directional" && type != "spot" && type != "point") throw LeftOut("has no type that is known");
-  out.type = type == "spot"    ? LightSource::Type::spot
-             : type == "point" ? LightSource::Type::point
-                               : LightSource::Type::directional;
-  out.range = number_in(light, "range", 0.0, 0.0, kLargest);
+  const double range = number_in(light, "range", 0.0, 0.0, kLargest);
   const json* spot = find_object(light, "spot");
   constexpr double kHalf = std::numbers::pi / 2.0;
-  out.outer_radians =
+  const double outer =
       spot == nullptr ? kHalf / 2.0 : number_in(*spot, "outerConeAngle", kHalf / 2.0, 1e-6, kHalf);
-  return out;
+  constexpr glm::dvec3 kOrigin{0.0, 0.0, 0.0}, kAhead{0.0, 0.0, -1.0};
+  if (type == "directional") return {name_of(light), DirectionalLight{kAhead}};
+  if (type == "point") return {name_of(light), PointLight{kOrigin, range}};
+  if (type == "spot") return {name_of(light), SpotLight{kOrigin, kAhead, outer, range}};
+  throw LeftOut("has no type that is known");
 }
 
-CameraSource camera_in(const json& camera) {
-  CameraSource out;
+SceneCamera camera_in(const json& camera) {
+  SceneCamera out;
   out.name = name_of(camera);
   const json* perspective = find_object(camera, "perspective");
   const json* parallel = find_object(camera, "orthographic");
@@ -114,15 +113,25 @@ glm::dvec3 axis_of(const glm::dmat4& m, int column, const glm::dvec3& otherwise)
   return length > 0.0 && std::isfinite(length) ? axis / length : otherwise;
 }
 
-Light placed(const LightSource& source, const glm::dmat4& world, const Box& scene) {
+Light placed(Light light, const glm::dmat4& world, const Box& scene) {
   const glm::dvec3 position(world[3]), direction = -axis_of(world, 2, {0.0, 1.0, 0.0});
-  if (source.type == LightSource::Type::directional) return DirectionalLight{direction};
-  Box all = scene;
-  all.extend(position);
-  constexpr double kFarther = 2.0;
-  const double range = source.range > 0.0 ? source.range : kFarther * glm::length(all.max - all.min);
-  if (source.type == LightSource::Type::point) return PointLight{position, range};
-  return SpotLight{position, direction, source.outer_radians, range};
+  const auto endless = [&](double& range) {
+    Box all = scene;
+    all.extend(position);
+    constexpr double kFarther = 2.0;
+    if (!(range > 0.0)) range = kFarther * glm::length(all.max - all.min);
+  };
+  if (auto* sun = std::get_if<DirectionalLight>(&light)) sun->direction = direction;
+  if (auto* bulb = std::get_if<PointLight>(&light)) {
+    bulb->position = position;
+    endless(bulb->range);
+  }
+  if (auto* spot = std::get_if<SpotLight>(&light)) {
+    spot->position = position;
+    spot->direction = direction;
+    endless(spot->range);
+  }
+  return light;
 }
 
 }  // namespace
@@ -135,8 +144,8 @@ ViewSource read_view_source(const json& source, std::vector<std::string>& warnin
     return owner != nullptr && owner->contains(key) ? &owner->at(key) : nullptr;
   };
   const auto lights =
-      entries<LightSource>(list_in(punctual, "lights"), "KHR_lights_punctual.lights", light_in, warnings);
-  const auto cameras = entries<CameraSource>(list_in(&source, "cameras"), "cameras", camera_in, warnings);
+      entries<SceneLight>(list_in(punctual, "lights"), "KHR_lights_punctual.lights", light_in, warnings);
+  const auto cameras = entries<SceneCamera>(list_in(&source, "cameras"), "cameras", camera_in, warnings);
   const json* nodes = list_in(&source, "nodes");
   for (std::size_t n = 0; nodes != nullptr && nodes->is_array() && n < nodes->size(); ++n) {
     const json& node = (*nodes)[n];
@@ -149,22 +158,21 @@ ViewSource read_view_source(const json& source, std::vector<std::string>& warnin
   return out;
 }
 
-void place_views(const ViewSource& source, const std::vector<glm::dmat4>& world_from_node,
-                 const std::vector<int>& shown, Scene& scene) {
-  const auto is_shown = [&](std::size_t node) {
-    return std::find(shown.begin(), shown.end(), static_cast<int>(node)) != shown.end();
-  };
-  for (const ViewSource::LightNode& of : source.lights) {
-    if (is_shown(of.node))
-      scene.lights.push_back({of.light.name, placed(of.light, world_from_node[of.node], scene.bounds_world)});
+void place_views(const ViewSource& source, const NodeTree& tree, Scene& scene) {
+  std::vector<bool> shown(tree.world_from_node.size());
+  for (const int node : tree.shown) shown[static_cast<std::size_t>(node)] = true;
+  for (const auto& [node, of_file] : source.lights) {
+    if (!shown[node]) continue;
+    SceneLight& light = scene.lights.emplace_back(of_file);
+    light.light = placed(light.light, tree.world_from_node[node], scene.bounds_world);
   }
-  for (const ViewSource::CameraNode& of : source.cameras) {
-    if (!is_shown(of.node)) continue;
-    const glm::dmat4& world = world_from_node[of.node];
-    const CameraSource& camera = of.camera;
-    scene.cameras.push_back({camera.name, glm::dvec3(world[3]), -axis_of(world, 2, {0.0, 0.0, 1.0}),
-                             axis_of(world, 1, {0.0, 1.0, 0.0}), camera.orthographic, camera.fov_y_radians,
-                             camera.height_world, camera.near_depth, camera.far_depth});
+  for (const auto& [node, of_file] : source.cameras) {
+    if (!shown[node]) continue;
+    const glm::dmat4& world = tree.world_from_node[node];
+    SceneCamera& camera = scene.cameras.emplace_back(of_file);
+    camera.position = glm::dvec3(world[3]);
+    camera.forward = -axis_of(world, 2, {0.0, 0.0, 1.0});
+    camera.up = axis_of(world, 1, {0.0, 1.0, 0.0});
   }
 }
 

@@ -126,7 +126,7 @@ class NodePlacer {
         return;
       }
     }
-    if (document_.placement.places[index].any && place_instances(n)) return;
+    if (document_.placement.places[index].any() && place_instances(n)) return;
     const int moved = motion_.moved_node(n);
     const glm::dmat4& at = tree_.world_from_node[index];
     if (motion_.weights_of(n)) {
@@ -205,7 +205,7 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     check_size(document, tree, limits);
     NodePlacer placer(document, tree, limits, scene);
     for (const int node : tree.shown) placer.place(node);
-    place_views(document.views, tree.world_from_node, tree.shown, scene);
+    place_views(document.views, tree, scene);
     read_materials(document, files, limits, scene);
     if (files_hash != nullptr) *files_hash = fnv_of(bytes, files.hash());
     return scene;
