@@ -35,6 +35,27 @@ void check_depths(const CameraWords& words, double near_depth, double far_depth)
                                        words.near_depth > 0.0 ? "--near" : "--far", near_depth, far_depth));
 }
 
+/// The path of one key that shows what a camera of the file does.
+CameraPath path_of(const SceneCamera& camera, const Scene& scene) {
+  if (camera.orthographic)
+    throw std::runtime_error("--camera " + camera.name + ": is orthographic, and pictures are perspective");
+  CameraPath path;
+  path.keys = {{camera.position, camera.position + camera.forward}};
+  path.fov_y_radians = camera.fov_y_radians;
+  path.near_depth = camera.near_depth;
+  std::vector<Box> boxes;
+  for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
+  path.far_depth = std::isfinite(camera.far_depth)
+                       ? camera.far_depth
+                       : std::max(sight_from(camera.position, boxes).far_depth, 2.0 * camera.near_depth);
+  // A path's cameras stand upright: up is +Y.
+  constexpr double kUpright = 1e-3;
+  const glm::dvec3 side = glm::cross(camera.forward, glm::dvec3(0.0, 1.0, 0.0));
+  if (glm::length(side) > kUpright && std::abs(glm::dot(camera.up, glm::normalize(side))) > kUpright)
+    warn("--camera " + camera.name + ": is tilted to a side, and is shown upright");
+  return path;
+}
+
 }  // namespace
 
 glm::dvec3 point_word(const std::string& option, const std::string& word) {
@@ -96,31 +117,6 @@ void check_camera(const CameraWords& words) {
   check_depths(words, words.near_depth > 0.0 ? words.near_depth : path.near_depth,
                words.far_depth > 0.0 ? words.far_depth : path.far_depth);
 }
-
-namespace {
-
-/// The path of one key that shows what a camera of the file does.
-CameraPath path_of(const SceneCamera& camera, const Scene& scene) {
-  if (camera.orthographic)
-    throw std::runtime_error("--camera " + camera.name + ": is orthographic, and pictures are perspective");
-  CameraPath path;
-  path.keys = {{camera.position, camera.position + camera.forward}};
-  path.fov_y_radians = camera.fov_y_radians;
-  path.near_depth = camera.near_depth;
-  std::vector<Box> boxes;
-  for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
-  path.far_depth = std::isfinite(camera.far_depth)
-                       ? camera.far_depth
-                       : std::max(sight_from(camera.position, boxes).far_depth, 2.0 * camera.near_depth);
-  // A path's cameras stand upright: up is +Y.
-  constexpr double kUpright = 1e-3;
-  const glm::dvec3 side = glm::cross(camera.forward, glm::dvec3(0.0, 1.0, 0.0));
-  if (glm::length(side) > kUpright && std::abs(glm::dot(camera.up, glm::normalize(side))) > kUpright)
-    warn("--camera " + camera.name + ": is tilted to a side, and is shown upright");
-  return path;
-}
-
-}  // namespace
 
 CameraPath camera_path(const CameraWords& words, const Scene& scene, double aspect) {
   check_camera(words);

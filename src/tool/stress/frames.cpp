@@ -3,7 +3,6 @@
 #include "stress/frames.hpp"
 
 #include <filesystem>
-#include <glm/geometric.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +13,7 @@
 #include "progress.hpp"
 #include "run_frames.hpp"
 #include "state.hpp"
+#include "stress/random.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -21,23 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Json = nlohmann::ordered_json;
-
-view::LightState light_state(const Light& light) {
-  view::LightState state;
-  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
-    const glm::dvec3 to = -glm::normalize(sun->direction);
-    state.sun.elevation_deg = view::kDegrees * std::asin(to.y);
-    state.sun.azimuth_deg = view::kDegrees * std::atan2(to.x, -to.z);
-    return state;
-  }
-  const auto* spot = std::get_if<SpotLight>(&light);
-  state.sun.kind = spot != nullptr ? LightKind::spot : LightKind::point;
-  if (spot != nullptr)
-    state.spot = *spot;
-  else
-    state.point = std::get<PointLight>(light);
-  return state;
-}
 
 /// What the viewer shows of the frame: the place where it fails, at rest. False where it has no such camera.
 bool view_state(const Json& frame, const std::string& scene, view::State& state) {
@@ -51,7 +34,7 @@ bool view_state(const Json& frame, const std::string& scene, view::State& state)
   state.fov_y_deg = 2.0 * view::kDegrees * std::atan(camera.top);
   state.near_depth = camera.near_depth;
   state.far_depth = camera.far_depth;
-  state.light = light_state(setting.input.light);
+  state.light = view::light_state(setting.input.light);
   state.a.plan = setting.input.options;
   state.a.filter = setting.filter;
   state.a.transition = setting.options.transition;
@@ -107,9 +90,7 @@ bool replay_frame(const std::string& text, const std::string& name, render::Cont
 }
 
 int run_frame_stress(const FrameStressRequest& request) {
-  const fs::path folder =
-      request.out.empty() ? fs::temp_directory_path() / ("gnomon_stress_seed_" + std::to_string(request.seed))
-                          : fs::path(request.out);
+  const fs::path folder = failure_folder(request.out, request.seed);
   const std::unique_ptr<render::Context> context = render::create_context(request.context);
   const stress::FrameOptionsOfRun options{static_cast<long long>(request.frames), request.seed, true};
   Progress progress("gnomon stress --frames", options.frames);

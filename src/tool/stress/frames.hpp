@@ -12,8 +12,7 @@ namespace gnomon::tool {
 struct FrameStressRequest {
   std::uint64_t frames = 0;  ///< random frames
   std::uint64_t seed = 1;
-  std::string
-      out;  ///< folder for frames that fail; empty: gnomon_stress_seed_N in the folder for temporary files
+  std::string out;  ///< folder for frames that fail; empty: see failure_folder()
   render::ContextKind context = render::ContextKind::automatic;
 };
 

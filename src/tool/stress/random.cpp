@@ -57,9 +57,7 @@ int replay(const RandomStressRequest& request) {
 
 int run_random_stress(const RandomStressRequest& request) {
   if (!request.replay.empty()) return replay(request);
-  const fs::path folder =
-      request.out.empty() ? fs::temp_directory_path() / ("gnomon_stress_seed_" + std::to_string(request.seed))
-                          : fs::path(request.out);
+  const fs::path folder = failure_folder(request.out, request.seed);
   const stress::RandomOptions options{static_cast<long long>(request.random), request.seed, true};
   Progress progress("gnomon stress --random", options.cases);
   long long done = 0;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,11 +10,16 @@
 
 namespace gnomon::tool {
 
+/// `out`, or gnomon_stress_seed_N in the folder for temporary files where it is empty.
+[[nodiscard]] inline std::filesystem::path failure_folder(const std::string& out, std::uint64_t seed) {
+  return out.empty() ? std::filesystem::temp_directory_path() / ("gnomon_stress_seed_" + std::to_string(seed))
+                     : std::filesystem::path(out);
+}
+
 struct RandomStressRequest {
   std::uint64_t random = 0;  ///< random cases
   std::uint64_t seed = 1;
-  std::string
-      out;  ///< folder for cases that fail; empty: gnomon_stress_seed_N in the folder for temporary files
+  std::string out;                  ///< folder for cases that fail; empty: see failure_folder()
   std::vector<std::string> replay;  ///< case and frame files that are checked as random ones, in their place
   render::ContextKind context = render::ContextKind::automatic;  ///< of frames
 };

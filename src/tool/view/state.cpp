@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "identifier_word.hpp"
@@ -85,6 +86,22 @@ Light light_of(const LightState& light, const Box& scene) noexcept {
   if (light.sun.kind == LightKind::spot && light.spot) return *light.spot;
   if (light.sun.kind == LightKind::point && light.point) return *light.point;
   return default_light(light.sun, scene);
+}
+
+LightState light_state(const Light& light) noexcept {
+  LightState state;
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
+    const glm::dvec3 to_light = -glm::normalize(sun->direction);
+    state.sun.elevation_deg = std::asin(std::clamp(to_light.y, -1.0, 1.0)) * kDegrees;
+    state.sun.azimuth_deg = std::atan2(to_light.x, -to_light.z) * kDegrees;
+  } else if (const auto* spot = std::get_if<SpotLight>(&light)) {
+    state.sun.kind = LightKind::spot;
+    state.spot = *spot;
+  } else {
+    state.sun.kind = LightKind::point;
+    state.point = std::get<PointLight>(light);
+  }
+  return state;
 }
 
 void turn_sun(State& state, double seconds) noexcept {

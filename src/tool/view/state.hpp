@@ -127,6 +127,8 @@ struct State {
 
 /// The light of a state over a scene with these bounds.
 [[nodiscard]] Light light_of(const LightState& light, const Box& scene) noexcept;
+/// The state whose light this is, over any scene.
+[[nodiscard]] LightState light_state(const Light& light) noexcept;
 /// Turns the sun by `seconds` of its motion; its azimuth stays in [-180, 180) degrees.
 void turn_sun(State& state, double seconds) noexcept;
 /// The path that the state flies along: the recorded one, or the scene's, with the state's field of view and

@@ -2,13 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cmath>
-#include <glm/geometric.hpp>
 #include <memory>
-#include <numbers>
 #include <optional>
 #include <stdexcept>
-#include <utility>
 
 #include "camera_words.hpp"
 #include "command.hpp"
@@ -84,23 +80,11 @@ void resolve_camera(const CameraWords& words, State& state) {
 }
 
 /// A light of the file as the state has lights.
-LightState light_state(const SceneLight& of_file) {
-  LightState state;
-  if (const auto* sun = std::get_if<DirectionalLight>(&of_file.light)) {
-    constexpr double kDegrees = 180.0 / std::numbers::pi;
-    const glm::dvec3 to_light = -glm::normalize(sun->direction);
-    state.sun.elevation_deg = std::asin(std::clamp(to_light.y, -1.0, 1.0)) * kDegrees;
-    state.sun.azimuth_deg = std::atan2(to_light.x, -to_light.z) * kDegrees;
-    constexpr double kLeast = 0.1;
-    if (state.sun.elevation_deg < kLeast)
-      throw std::runtime_error("--scene-light " + of_file.name + ": shines from below the horizon");
-  } else if (const auto* spot = std::get_if<SpotLight>(&of_file.light)) {
-    state.sun.kind = LightKind::spot;
-    state.spot = *spot;
-  } else {
-    state.sun.kind = LightKind::point;
-    state.point = std::get<PointLight>(of_file.light);
-  }
+LightState light_of_file(const SceneLight& of_file) {
+  const LightState state = light_state(of_file.light);
+  constexpr double kLeastDegrees = 0.1;
+  if (state.sun.kind == LightKind::sun && state.sun.elevation_deg < kLeastDegrees)
+    throw std::runtime_error("--scene-light " + of_file.name + ": shines from below the horizon");
   return state;
 }
 
@@ -110,11 +94,10 @@ void resolve_scene_words(const Request& request, State& state) {
   if (camera.empty() && request.light_of_file.empty()) return;
   const Scene scene = load_scene(state.scene, limits_of_triangles(request.options.max_triangles));
   if (!request.light_of_file.empty())
-    state.light = light_state(named_in(scene.lights, request.light_of_file, "--scene-light", "light"));
+    state.light = light_of_file(named_in(scene.lights, request.light_of_file, "--scene-light", "light"));
   if (camera.empty()) return;
   const CameraPath path = camera_path(request.camera, scene);
   state.eye = path.keys.front();
-  constexpr double kDegrees = 180.0 / std::numbers::pi;
   state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
   state.near_depth = path.near_depth;
   state.far_depth = path.far_depth;
@@ -293,6 +276,7 @@ std::vector<Option> setting_options(Request& request) {
   const std::vector<Option> of_pages = page_setting_options(settings.pages);
   const std::vector<Option> of_light = light_options(state.light.sun);
   const std::vector<Option> others{
+      scene_light_option(request.light_of_file),
       point_option("--light-position", request.light_position,
                    "position of the spot or point light, world units"),
       point_option("--light-direction", request.light_direction, "direction of the spot light"),
@@ -321,10 +305,8 @@ std::vector<Option> setting_options(Request& request) {
        .target = enum_word(state.view, views),
        .help = "what the picture shows: " + any_of_text(views),
        .names = views}};
-  std::vector<Option> of_camera = camera_options(request.camera);
-  of_camera.push_back(scene_light_option(request.light_of_file));
-  for (const std::vector<Option>* part :
-       {&of_pages, &of_picture, &of_light, &std::as_const(of_camera), &others})
+  const std::vector<Option> of_camera = camera_options(request.camera);
+  for (const auto* part : {&of_pages, &of_picture, &of_light, &of_camera, &others})
     options.insert(options.end(), part->begin(), part->end());
   for (Option& option : options) {
     request.settings.emplace_back(option.name, std::make_unique<bool>(false));
