@@ -323,7 +323,7 @@ std::vector<Option> frame_options(CompareRequest& request) {
            .help = "plan with the view depths that the frame shows"},
           {.name = "--visible-points",
            .target = &request.visible_points,
-           .help = "plan with points of the surfaces that the frame shows"},
+           .help = "plan with points of the surfaces that the frame shows, where the split names no others"},
           size_option(request.width, request.height),
           {.name = "--out",
            .target = &request.out,

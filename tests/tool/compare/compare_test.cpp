@@ -83,75 +83,6 @@ TEST(Compare, measures_local_lights_against_their_own_shadows) {
   }
 }
 
-TEST(Compare, plans_with_the_finest_map_and_with_what_the_frame_shows) {
-  const TemporaryFolder folder;
-  const Finished finished = run_gnomon({"compare",
-                                        "builtin:hangar",
-                                        "--warps",
-                                        "none",
-                                        "--splits",
-                                        "auto,auto:finest",
-                                        "--cascades",
-                                        "4",
-                                        "--filters",
-                                        "hard",
-                                        "--frames",
-                                        "1",
-                                        "--size",
-                                        "96x54",
-                                        "--map-sizes",
-                                        "512",
-                                        "--rounds",
-                                        "1",
-                                        "--visible-depths",
-                                        "--visible-points",
-                                        "--context",
-                                        "osmesa",
-                                        "--out",
-                                        folder.path().string()});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  const std::vector<report::Row> rows = report::read_rows(folder.path());
-  ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0].technique.split, "auto:visible_depths:visible_points");
-  EXPECT_EQ(rows[1].technique.split, "auto:finest:visible_depths:visible_points");
-  for (const report::Row& row : rows) {
-    EXPECT_EQ(row.plan_status, "ok");
-    EXPECT_LT(row.errors.false_lit + row.errors.false_shadow, 0.1) << row.technique.name();
-  }
-  EXPECT_LE(rows[1].aliasing.p95, rows[0].aliasing.p95);
-  const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", "auto:best"});
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("auto:best"), std::string::npos) << refused.err;
-}
-
-TEST(Compare, divides_the_faces_of_the_frustum_further) {
-  const TemporaryFolder folder;
-  const Finished finished = run_gnomon({"compare",     "builtin:hangar",
-                                        "--warps",     "none",
-                                        "--splits",    "frustum_faces,frustum_faces:slices=2",
-                                        "--cascades",  "4",
-                                        "--filters",   "hard",
-                                        "--frames",    "1",
-                                        "--size",      "96x54",
-                                        "--map-sizes", "512",
-                                        "--rounds",    "1",
-                                        "--context",   "osmesa",
-                                        "--out",       folder.path().string()});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  const std::vector<report::Row> rows = report::read_rows(folder.path());
-  ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[1].technique.split, "frustum_faces:slices=2");
-  EXPECT_GT(rows[1].costs.maps, rows[0].costs.maps);
-  EXPECT_LE(rows[1].aliasing.p95, rows[0].aliasing.p95);
-  EXPECT_LT(rows[1].aliasing.p50, rows[0].aliasing.p50);
-  for (const char* bad : {"frustum_faces:slices=0", "frustum_faces:slices=9", "frustum_faces:slices=x",
-                          "frustum_faces:slices=", "auto:slices=2", "separating_plane:slices=2"}) {
-    const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", bad});
-    EXPECT_EQ(refused.exit_code, 2) << bad;
-    EXPECT_NE(refused.err.find(bad), std::string::npos) << refused.err;
-  }
-}
-
 TEST(Compare, says_the_same_in_every_run_but_for_times) {
   const TemporaryFolder folder;
   ASSERT_EQ(run_gnomon(small_sweep(folder.path())).exit_code, 0);
@@ -408,28 +339,6 @@ TEST(Compare, shapes_that_a_light_has_no_use_for_are_refused_where_nothing_else_
   EXPECT_FALSE(fs::exists(folder.path() / "none"));
 }
 
-TEST(Compare, plans_with_the_edges_of_the_last_frames_shadow) {
-  const TemporaryFolder folder;
-  const Finished finished = run_gnomon({"compare",     "builtin:hangar",
-                                        "--warps",     "optimal",
-                                        "--splits",    "auto,auto:shadow_edges",
-                                        "--cascades",  "4",
-                                        "--filters",   "hard",
-                                        "--frames",    "1",
-                                        "--size",      "320x180",
-                                        "--map-sizes", "256",
-                                        "--rounds",    "1",
-                                        "--out",       (folder.path() / "out").string()});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  const std::vector<report::Row> rows = report::read_rows(folder.path() / "out");
-  ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[1].technique.split, "auto:shadow_edges");
-  const auto wrong = [](const report::Row& row) { return row.errors.false_lit + row.errors.false_shadow; };
-  EXPECT_LT(wrong(rows[1]), 0.95 * wrong(rows[0]));
-  EXPECT_EQ(
-      run_gnomon({"compare", "builtin:hangar", "--splits", "auto:visible_points:shadow_edges"}).exit_code, 2);
-}
-
 TEST(Compare, refuses_bad_input_before_it_measures) {
   const TemporaryFolder folder;
   const auto refusal = [&](const std::vector<std::string>& more) {
@@ -478,23 +387,6 @@ TEST(Compare, runs_under_gnu_parallel) {
   for (const char* shard : {"1", "2", "3"}) merge.push_back((folder.path() / shard).string());
   ASSERT_EQ(run_gnomon(merge).exit_code, 0);
   EXPECT_EQ(lasting(folder.path() / "merged"), lasting(whole()));
-}
-
-TEST(Scenes, are_listed_where_the_output_takes_them_and_written_to_files_alone) {
-  EXPECT_EQ(run_gnomon({"scenes"}, "", "/dev/full").exit_code, 2);
-  const TemporaryFolder folder;
-  const Finished refused = run_gnomon({"scenes", "--write", "city", folder.path().string()});
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("cannot be written: Is a directory"), std::string::npos) << refused.err;
-}
-
-TEST(Doctor, names_contexts_timers_and_packages) {
-  const Finished finished = run_gnomon({"doctor"});
-  EXPECT_EQ(finished.exit_code, 0) << finished.err;
-  for (const char* word :
-       {"context auto", "context osmesa", "context egl", "timer queries", "libembree-dev", "OpenGL 4.5"})
-    EXPECT_NE(finished.out.find(word), std::string::npos) << word;
-  EXPECT_EQ(run_gnomon({"doctor", "--json"}).lines().size(), 1u);
 }
 
 }  // namespace

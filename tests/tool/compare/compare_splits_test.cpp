@@ -1,0 +1,126 @@
+// Does `gnomon compare` measure each split with what it gives to the plan?
+#include <gtest/gtest.h>
+
+#include "small_sweep.hpp"
+
+namespace gnomon::test {
+namespace {
+
+TEST(Compare, plans_with_the_finest_map_and_with_what_the_frame_shows) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",
+                                        "builtin:hangar",
+                                        "--warps",
+                                        "none",
+                                        "--splits",
+                                        "auto,auto:finest",
+                                        "--cascades",
+                                        "4",
+                                        "--filters",
+                                        "hard",
+                                        "--frames",
+                                        "1",
+                                        "--size",
+                                        "96x54",
+                                        "--map-sizes",
+                                        "512",
+                                        "--rounds",
+                                        "1",
+                                        "--visible-depths",
+                                        "--visible-points",
+                                        "--context",
+                                        "osmesa",
+                                        "--out",
+                                        folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].technique.split, "auto:visible_depths:visible_points");
+  EXPECT_EQ(rows[1].technique.split, "auto:finest:visible_depths:visible_points");
+  for (const report::Row& row : rows) {
+    EXPECT_EQ(row.plan_status, "ok");
+    EXPECT_LT(row.errors.false_lit + row.errors.false_shadow, 0.1) << row.technique.name();
+  }
+  EXPECT_LE(rows[1].aliasing.p95, rows[0].aliasing.p95);
+  const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", "auto:best"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("auto:best"), std::string::npos) << refused.err;
+}
+
+TEST(Compare, divides_the_faces_of_the_frustum_further) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:hangar",
+                                        "--warps",     "none",
+                                        "--splits",    "frustum_faces,frustum_faces:slices=2",
+                                        "--cascades",  "4",
+                                        "--filters",   "hard",
+                                        "--frames",    "1",
+                                        "--size",      "96x54",
+                                        "--map-sizes", "512",
+                                        "--rounds",    "1",
+                                        "--context",   "osmesa",
+                                        "--out",       folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[1].technique.split, "frustum_faces:slices=2");
+  EXPECT_GT(rows[1].costs.maps, rows[0].costs.maps);
+  EXPECT_LE(rows[1].aliasing.p95, rows[0].aliasing.p95);
+  EXPECT_LT(rows[1].aliasing.p50, rows[0].aliasing.p50);
+  for (const char* bad : {"frustum_faces:slices=0", "frustum_faces:slices=9", "frustum_faces:slices=x",
+                          "frustum_faces:slices=", "auto:slices=2", "separating_plane:slices=2"}) {
+    const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", bad});
+    EXPECT_EQ(refused.exit_code, 2) << bad;
+    EXPECT_NE(refused.err.find(bad), std::string::npos) << refused.err;
+  }
+}
+
+TEST(Compare, plans_with_the_edges_of_the_last_frames_shadow) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:hangar",
+                                        "--warps",     "optimal",
+                                        "--splits",    "auto,auto:shadow_edges",
+                                        "--cascades",  "4",
+                                        "--filters",   "hard",
+                                        "--frames",    "1",
+                                        "--size",      "320x180",
+                                        "--map-sizes", "256",
+                                        "--rounds",    "1",
+                                        "--out",       (folder.path() / "out").string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path() / "out");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[1].technique.split, "auto:shadow_edges");
+  const auto wrong = [](const report::Row& row) { return row.errors.false_lit + row.errors.false_shadow; };
+  EXPECT_LT(wrong(rows[1]), 0.95 * wrong(rows[0]));
+  EXPECT_EQ(
+      run_gnomon({"compare", "builtin:hangar", "--splits", "auto:visible_points:shadow_edges"}).exit_code, 2);
+}
+
+TEST(Compare, maps_that_share_a_budget_have_no_more_texels_and_other_shadows) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"compare",     "builtin:hangar",
+                                        "--warps",     "auto",
+                                        "--splits",    "auto,auto:budget",
+                                        "--filters",   "hard",
+                                        "--cascades",  "3",
+                                        "--map-sizes", "256",
+                                        "--frames",    "2",
+                                        "--rounds",    "1",
+                                        "--size",      "320x180",
+                                        "--out",       folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), 4u);
+  double equal = 0.0, shared = 0.0;
+  for (const report::Row& row : rows) {
+    const bool shares = row.technique.split == "auto:budget";
+    (shares ? shared : equal) += row.errors.false_lit + row.errors.false_shadow;
+    EXPECT_LE(row.costs.texels, 3u * 256u * 256u);
+    EXPECT_EQ(row.costs.texels == 3u * 256u * 256u, !shares);
+  }
+  EXPECT_NE(shared, equal);
+}
+
+}  // namespace
+}  // namespace gnomon::test
