@@ -169,26 +169,16 @@ void write_clusters(File& file, const gnomon_camera& camera, std::mt19937_64& ra
   file.list(lights);
   const std::int64_t rooms[] = {100000, 120};
   file.one(static_cast<std::uint32_t>(std::size(rooms)));
-  const auto count = static_cast<int64_t>(lights.size()), clusters = gnomon_cluster_count(&camera, 64, 48);
   for (const std::int64_t room : rooms) {
-    std::vector<std::uint32_t> begin(static_cast<std::size_t>(clusters) + 1),
-        list(static_cast<std::size_t>(room));
-    std::vector<std::byte> memory(static_cast<std::size_t>(gnomon_cluster_memory(count, room)));
-    gnomon_light_clusters found;
-    gnomon_light_clusters_default(&found, sizeof found);
-    found.begin = begin.data();
-    found.lights = list.data();
-    found.begin_room = clusters + 1;
-    found.light_room = room;
-    gnomon_cluster_lights(&camera, lights.data(), sizeof lights[0], count, memory.data(),
-                          static_cast<int64_t>(memory.size()), &found, nullptr);
+    const ClustersInC clusters(camera, lights, room);
+    const gnomon_light_clusters& found = clusters.found;
     file.one(room);
     for (const std::int32_t value : {found.tile_pixels, found.columns, found.rows, found.slices})
       file.one(value);
     file.one(found.depth_scale);
     file.one(found.depth_offset);
-    file.list(begin.data(), static_cast<std::size_t>(found.columns * found.rows * found.slices) + 1);
-    file.list(list.data(), static_cast<std::size_t>(found.light_count));
+    file.list(clusters.begin.data(), static_cast<std::size_t>(found.columns * found.rows * found.slices) + 1);
+    file.list(clusters.list.data(), static_cast<std::size_t>(found.light_count));
   }
 }
 

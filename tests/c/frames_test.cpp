@@ -277,17 +277,9 @@ TEST(FramesInC, lights_are_listed_in_clusters_as_in_cpp) {
     std::vector<ClusterEntry> work(list.size());
     const LightClusters expected = cluster_lights(scene.camera, lights.in_cpp, {}, {begin, list, work});
     ASSERT_EQ(expected.status, PlanStatus::ok);
-    std::vector<std::uint32_t> begin_in_c(begin.size()), list_in_c(list.size());
-    std::vector<std::byte> memory(static_cast<std::size_t>(gnomon_cluster_memory(count, room)));
-    gnomon_light_clusters found;
-    gnomon_light_clusters_default(&found, sizeof found);
-    found.begin = begin_in_c.data();
-    found.lights = list_in_c.data();
-    found.begin_room = clusters + 1;
-    found.light_room = room;
-    ASSERT_EQ(gnomon_cluster_lights(&camera, lights.in_c_lights.data(), sizeof(gnomon_light), count,
-                                    memory.data(), static_cast<int64_t>(memory.size()), &found, nullptr),
-              GNOMON_OK);
+    const ClustersInC listed(camera, lights.in_c_lights, room);
+    ASSERT_EQ(listed.status, GNOMON_OK);
+    const gnomon_light_clusters& found = listed.found;
     EXPECT_EQ(found.columns, expected.columns);
     EXPECT_EQ(found.rows, expected.rows);
     EXPECT_EQ(found.slices, expected.slices);
@@ -296,8 +288,8 @@ TEST(FramesInC, lights_are_listed_in_clusters_as_in_cpp) {
     EXPECT_EQ(found.depth_offset, expected.depth_offset);
     EXPECT_EQ(found.orthographic, 0);
     ASSERT_EQ(found.light_count, static_cast<int64_t>(expected.lights.size()));
-    EXPECT_EQ(begin_in_c, begin);
-    EXPECT_EQ(std::memcmp(list_in_c.data(), expected.lights.data(), expected.lights.size_bytes()), 0);
+    EXPECT_EQ(listed.begin, begin);
+    EXPECT_EQ(std::memcmp(listed.list.data(), expected.lights.data(), expected.lights.size_bytes()), 0);
     EXPECT_EQ(found.tile_pixels > 64, room == count);
   }
 }

@@ -261,4 +261,19 @@ InputInC::InputInC(const Camera& a_camera, const Light& a_light, const std::vect
   scene.receiver_count = static_cast<int64_t>(receivers.size());
 }
 
+ClustersInC::ClustersInC(const gnomon_camera& camera, const std::vector<gnomon_light>& lights,
+                         std::int64_t room)
+    : begin(static_cast<std::size_t>(gnomon_cluster_count(&camera, 64, 48)) + 1),
+      list(static_cast<std::size_t>(room)) {
+  const auto count = static_cast<std::int64_t>(lights.size());
+  std::vector<std::byte> memory(static_cast<std::size_t>(gnomon_cluster_memory(count, room)));
+  gnomon_light_clusters_default(&found, sizeof found);
+  found.begin = begin.data();
+  found.lights = list.data();
+  found.begin_room = static_cast<std::int64_t>(begin.size());
+  found.light_room = room;
+  status = gnomon_cluster_lights(&camera, lights.data(), sizeof(gnomon_light), count, memory.data(),
+                                 static_cast<std::int64_t>(memory.size()), &found, nullptr);
+}
+
 }  // namespace gnomon::test

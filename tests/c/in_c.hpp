@@ -45,4 +45,16 @@ struct InputInC {
   InputInC& operator=(const InputInC&) = delete;
 };
 
+/// The lists of gnomon_cluster_lights() with room for `room` entries, tiles of 64 pixels and 48 slices.
+/// Points into itself.
+struct ClustersInC {
+  std::vector<std::uint32_t> begin, list;
+  gnomon_light_clusters found;
+  std::int32_t status;
+
+  ClustersInC(const gnomon_camera& camera, const std::vector<gnomon_light>& lights, std::int64_t room);
+  ClustersInC(const ClustersInC&) = delete;
+  ClustersInC& operator=(const ClustersInC&) = delete;
+};
+
 }  // namespace gnomon::test

@@ -1,36 +1,18 @@
 //! Are frames, atlases, clusters and pictures those of the native library, bit for bit? GNOMON_FRAMES names the file of
 //! c_dump_frames, whose source has its order.
-use std::mem::size_of;
+mod reader;
 
 use gnomon::sys::*;
 use gnomon::{
     Aabb, BiasWay, Camera, ClusterMemory, ClusterOptions, DepthTracker, Light, PlanOptions, Point, Scene,
     ShadowPicture, View, VisibleDepths,
 };
+use reader::{bytes, Reader};
 
-struct Reader<'a>(&'a [u8]);
-
-impl Reader<'_> {
-    /// Plain numbers of C, for which any bytes will do.
-    fn take<T: Copy>(&mut self) -> T {
-        let (one, rest) = self.0.split_at(size_of::<T>());
-        self.0 = rest;
-        unsafe { std::ptr::read_unaligned(one.as_ptr().cast()) }
-    }
-    fn some<T: Copy>(&mut self, count: usize) -> Vec<T> {
-        (0..count).map(|_| self.take()).collect()
-    }
-    fn list<T: Copy>(&mut self) -> Vec<T> {
-        let count: u32 = self.take();
-        self.some(count as usize)
-    }
-    fn count(&mut self) -> usize {
-        self.take::<u32>() as usize
-    }
-}
-
-fn bytes<T>(of: &T) -> &[u8] {
-    unsafe { std::slice::from_raw_parts((of as *const T).cast(), size_of::<T>()) }
+/// A list with its length before it.
+fn list<T: Copy>(file: &mut Reader) -> Vec<T> {
+    let count = file.count();
+    file.some(count)
 }
 fn bits(of: &[f64]) -> Vec<u64> {
     of.iter().map(|number| number.to_bits()).collect()
@@ -51,10 +33,10 @@ fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
     *camera = file.take::<gnomon_camera>();
     *sun = file.take::<gnomon_light>();
     *options = file.take::<gnomon_plan_options>();
-    let boxes: Vec<Aabb> = file.list();
+    let boxes: Vec<Aabb> = list(&mut file);
     let scene = Scene { casters: boxes[..].into(), receivers: boxes[..].into() };
     let plan = gnomon::plan(&View::new(&camera), &sun, scene, &options, None).unwrap();
-    let maps: Vec<gnomon_map> = file.list();
+    let maps: Vec<gnomon_map> = list(&mut file);
     assert!(!maps.is_empty() && plan.maps().len() == maps.len());
     for (map, expected) in plan.maps().iter().zip(&maps) {
         assert_eq!(bytes::<gnomon_map>(map), bytes(expected));
@@ -71,7 +53,7 @@ fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
         }
     }
 
-    let points: Vec<Point> = file.list();
+    let points: Vec<Point> = list(&mut file);
     let view = View { points: &points, ..View::new(&camera) };
     let (mut held, mut turns) = ([0.0; 3], 0);
     for _ in 0..file.count() {
@@ -89,7 +71,7 @@ fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
     let mut tracker = DepthTracker::new(frames[0], frames[1]).unwrap();
     for _ in 0..file.count() {
         let mut seen = VisibleDepths::default();
-        seen.add(&file.list::<f32>());
+        seen.add(&list::<f32>(&mut file));
         let (followed, expected) = (tracker.update(&seen), file.take::<gnomon_visible_depths>());
         assert_eq!(bytes(&followed), bytes(&expected));
     }
@@ -112,8 +94,7 @@ fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
         assert!(found.units > 0.0);
     }
 
-    let lights: Vec<Light> = file
-        .list::<gnomon_light>()
+    let lights: Vec<Light> = list::<gnomon_light>(&mut file)
         .into_iter()
         .map(|one| {
             let mut light = Light::default();
@@ -130,19 +111,19 @@ fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
         let found = gnomon::cluster_lights(&camera, &lights, &cluster_options, memory).unwrap();
         assert_eq!([found.tile_pixels, found.columns, found.rows, found.slices], file.take::<[i32; 4]>());
         assert_eq!(bits(&[found.depth_scale, found.depth_offset]), bits(&file.take::<[f64; 2]>()));
-        assert_eq!(found.begin, file.list::<u32>());
-        assert_eq!(found.lights, file.list::<u32>());
+        assert_eq!(found.begin, list::<u32>(&mut file));
+        assert_eq!(found.lights, list::<u32>(&mut file));
         assert!(found.of(0, 0, found.slices - 1).contains(&0));
         assert!(found.of(found.columns, 0, 0).is_empty() && found.of(-1, 0, 0).is_empty());
     }
 
-    let mask: Vec<f32> = file.list();
+    let mask: Vec<f32> = list(&mut file);
     let view_depths: Vec<f32> = file.some(mask.len());
     let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &view_depths };
     let found = gnomon::expected_error(&plan, picture).unwrap();
     assert_eq!(bytes(&found), bytes(&file.take::<gnomon_wrong_pixels>()));
     assert!(found.wrong > 0.0);
-    let edges: Vec<Point> = file.list();
+    let edges: Vec<Point> = list(&mut file);
     let mut points = vec![[0.0; 3]; edges.len()];
     assert_eq!(picture.edge_points(&mut points).unwrap(), edges.len());
     assert_eq!(points, edges);

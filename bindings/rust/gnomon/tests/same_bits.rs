@@ -1,26 +1,9 @@
 //! Do plans and errors have the bits of the native library? GNOMON_CASES names the file of c_dump_cases.
-use std::mem::size_of;
+mod reader;
 
 use gnomon::sys::*;
 use gnomon::{Aabb, Camera, Light, Map, MeasureOptions, PlanOptions, Scene, Stats, Status, View};
-
-struct Reader<'a>(&'a [u8]);
-
-impl Reader<'_> {
-    /// Plain numbers of C, for which any bytes will do.
-    fn take<T: Copy>(&mut self) -> T {
-        let (one, rest) = self.0.split_at(size_of::<T>());
-        self.0 = rest;
-        unsafe { std::ptr::read_unaligned(one.as_ptr().cast()) }
-    }
-    fn list<T: Copy>(&mut self, count: usize) -> Vec<T> {
-        (0..count).map(|_| self.take()).collect()
-    }
-}
-
-fn bytes<T>(of: &T) -> &[u8] {
-    unsafe { std::slice::from_raw_parts((of as *const T).cast(), size_of::<T>()) }
-}
+use reader::{bytes, Reader};
 
 #[test]
 #[ignore = "takes the file of c_dump_cases: ./dev check rust"]
@@ -30,15 +13,15 @@ fn plans_and_errors_have_the_bits_of_the_native_library() {
     let mut options = MeasureOptions::default();
     (options.columns, options.rows, options.depths) = (9, 9, 7);
     let (mut plans, mut maps, mut refused) = (0, 0, 0);
-    for number in 0..reader.take::<u32>() {
+    for number in 0..reader.count() {
         let (mut camera, mut light, mut plan_options) = (Camera::default(), Light::default(), PlanOptions::default());
         *camera = reader.take::<gnomon_camera>();
         *light = reader.take::<gnomon_light>();
         *plan_options = reader.take::<gnomon_plan_options>();
         let counts: [u32; 2] = reader.take();
-        let (casters, receivers) = (reader.list::<Aabb>(counts[0] as usize), reader.list::<Aabb>(counts[1] as usize));
+        let (casters, receivers) = (reader.some::<Aabb>(counts[0] as usize), reader.some::<Aabb>(counts[1] as usize));
         let [status, count]: [i32; 2] = reader.take();
-        let expected = reader.list::<gnomon_map>(count as usize);
+        let expected = reader.some::<gnomon_map>(count as usize);
         let scene = Scene { casters: casters[..].into(), receivers: receivers[..].into() };
         let view = View::new(&camera);
         let plan = match gnomon::plan(&view, &light, scene, &plan_options, None) {
