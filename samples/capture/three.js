@@ -113,18 +113,10 @@ export function frameOf(scene, camera, { width, height }, { csm } = {}) {
   };
 }
 
-/** A whole capture of one frame. `canvas`: anything with width and height, pixels. */
-export function captureThree(scene, camera, canvas, options = {}) {
-  return {
-    format: 'gnomon-capture/1', name: options.name ?? 'three.js', engine: options.engine ?? 'three.js',
-    clip_space: { ndc_depth: 'minus_one_to_one' }, ...boxesOf(scene), ...frameOf(scene, camera, canvas, options),
-  };
-}
+const fileOf = (scene, { name = 'three.js', engine = 'three.js' }) =>
+  ({ format: 'gnomon-capture/1', name, engine, clip_space: { ndc_depth: 'minus_one_to_one' }, ...boxesOf(scene) });
 
+/** A whole capture of one frame. `canvas`: anything with width and height, pixels. */
+export const captureThree = (scene, camera, canvas, options = {}) => ({ ...fileOf(scene, options), ...frameOf(scene, camera, canvas, options) });
 /** A capture of several frames: hand in what frameOf() returned for each. */
-export function captureFlight(scene, frames, options = {}) {
-  return {
-    format: 'gnomon-capture/1', name: options.name ?? 'three.js', engine: options.engine ?? 'three.js',
-    clip_space: { ndc_depth: 'minus_one_to_one' }, ...boxesOf(scene), frames,
-  };
-}
+export const captureFlight = (scene, frames, options = {}) => ({ ...fileOf(scene, options), frames });
