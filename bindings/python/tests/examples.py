@@ -11,7 +11,7 @@ import gnomon
 matplotlib.use("Agg")
 attempted = failed = 0
 for name in ("gnomon", *("gnomon." + file[:-3] for file in sorted(os.listdir(os.path.dirname(gnomon.__file__))) if file.startswith("_") and file.endswith(".py") and not file.startswith("__"))):
-    found = doctest.testmod(importlib.import_module(name))
+    found = doctest.testmod(importlib.import_module(name), extraglobs={one: getattr(gnomon, one) for one in gnomon.__all__})
     attempted, failed = attempted + found.attempted, failed + found.failed
 assert attempted > 40, attempted
 for page in sys.argv[1:]:

@@ -9,8 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
 from ._call import GnomonError, Handle, call, lib, numbers_of
-from ._plans import plan  # noqa: F401
-from ._records import Camera, Input, Plan, VisibleDepths, directional, perspective  # noqa: F401
+from ._records import Camera, Input, Plan, VisibleDepths
 
 
 def jitter_texels(frame: int) -> NDArray[np.float64]:

@@ -10,8 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
 from ._call import GnomonError, call, expect, find, lib, make, points_of, set_fields, set_options
-from ._plans import plan  # noqa: F401
-from ._records import (Boxes, Camera, Input, Light, Map, Plan, Record, VisibleDepths, directional,  # noqa: F401
+from ._records import Boxes, Camera, Input, Light, Map, Plan, Record, VisibleDepths
                        perspective, point)
 
 
@@ -157,7 +156,7 @@ class LightMaps(Record):
     def places(self) -> NDArray[np.int32]:
         return _places(self._struct.place[:self._struct.map_count])
 
-    place = places
+    place = places  # to_dict() goes by the fields of C
 
 
 class LightPlan(Record):

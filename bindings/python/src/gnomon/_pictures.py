@@ -9,8 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
 from ._call import GnomonError, call, expect, make
-from ._plans import plan  # noqa: F401
-from ._records import Camera, Plan, directional, orthographic  # noqa: F401
+from ._records import Camera, Plan
 
 
 class WrongPixels(NamedTuple):
