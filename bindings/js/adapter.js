@@ -1,4 +1,4 @@
-// What do the adapters of engines share? Defaults of their plans, and boxes that are gathered again and again.
+// What do the adapters of engines share? Defaults of their plans, cameras, and boxes that are gathered again and again.
 import { GnomonError } from './memory.js';
 
 // Far smaller texels than a grid that never moves, and at their place as long as the view stays in a map.
@@ -12,6 +12,13 @@ export const withDefaults = (options) => ({ ...(options.fit === 'stable' ? STEAD
 export function loaded(gnomon) {
   if (typeof gnomon?.casterSet !== 'function') throw new GnomonError('gnomon', 'gnomon: gnomon: expected what load() returns');
   return gnomon;
+}
+
+/** The camera of an engine's matrices. `far`: shadows end there at the latest. */
+export function cameraUpTo(gnomon, matrices, far) {
+  const found = gnomon.cameraFrom(matrices);
+  found.farDepth = Math.max(Math.min(found.farDepth, far), found.nearDepth * (1 + 1e-6) + 1e-9);
+  return found;
 }
 
 /** A set of boxes that is made again when their number changes, and refitted when one of them moved. */
@@ -56,5 +63,31 @@ export class FollowedBoxes {
   }
   dispose() {
     this.set.dispose();
+  }
+}
+
+/** Boxes of what casts and of what receives. */
+export class FollowedBounds {
+  constructor(gnomon) {
+    this.all = { casters: new FollowedBoxes(loaded(gnomon)), receivers: new FollowedBoxes(gnomon) };
+  }
+  get casters() {
+    return this.all.casters.set;
+  }
+  get receivers() {
+    return this.all.receivers.set;
+  }
+  /** `add` is given both, to add all boxes to. */
+  gather(add) {
+    const { casters, receivers } = this.all;
+    casters.begin();
+    receivers.begin();
+    add(casters, receivers);
+    casters.end();
+    receivers.end();
+  }
+  dispose() {
+    this.all.casters.dispose();
+    this.all.receivers.dispose();
   }
 }

@@ -3,7 +3,7 @@
 import { CascadedShadowGenerator } from '@babylonjs/core/Lights/Shadows/cascadedShadowGenerator.js';
 import { ShadowGenerator } from '@babylonjs/core/Lights/Shadows/shadowGenerator.js';
 import { Matrix } from '@babylonjs/core/Maths/math.vector.js';
-import { FollowedBoxes, loaded, withDefaults } from './adapter.js';
+import { FollowedBounds, cameraUpTo, loaded, withDefaults } from './adapter.js';
 import { GnomonError } from './memory.js';
 
 const DIRECTIONAL = 1;
@@ -15,39 +15,25 @@ const inverse = /*@__PURE__*/ new Matrix();
 const clip = /*@__PURE__*/ new Matrix();
 
 /** Boxes of the meshes that cast into a generator's maps, and of those that receive. update() follows them: each frame. */
-class ShadowBounds {
+class ShadowBounds extends FollowedBounds {
   constructor(gnomon, generator) {
+    super(gnomon);
     this.generator = generator;
     this.meshes = [];
-    this.all = { casters: new FollowedBoxes(gnomon), receivers: new FollowedBoxes(gnomon) };
     this.update();
-  }
-  get casters() {
-    return this.all.casters.set;
-  }
-  get receivers() {
-    return this.all.receivers.set;
   }
 
   update() {
-    const { casters, receivers } = this.all;
     const scene = this.generator.light.getScene();
-    casters.begin();
-    receivers.begin();
     this.meshes.length = 0;
-    for (const mesh of this.generator.getShadowMap()?.renderList ?? scene.meshes) {
-      if (addBox(casters, mesh)) this.meshes.push(mesh);
-    }
-    for (const mesh of scene.meshes) {
-      if (mesh.receiveShadows) addBox(receivers, mesh);
-    }
-    casters.end();
-    receivers.end();
-  }
-
-  dispose() {
-    this.all.casters.dispose();
-    this.all.receivers.dispose();
+    this.gather((casters, receivers) => {
+      for (const mesh of this.generator.getShadowMap()?.renderList ?? scene.meshes) {
+        if (addBox(casters, mesh)) this.meshes.push(mesh);
+      }
+      for (const mesh of scene.meshes) {
+        if (mesh.receiveShadows) addBox(receivers, mesh);
+      }
+    });
   }
 }
 
@@ -65,16 +51,15 @@ const clipSpaceOf = (engine, leftHanded) =>
 /** The camera that Babylon draws with, as gnomon counts it. `far`: shadows end there at the latest. */
 export function cameraOf(gnomon, camera, far = Infinity) {
   const engine = camera.getEngine();
-  const found = gnomon.cameraFrom({
+  const matrices = {
     // Babylon's vectors are rows: the memory of its matrices is that of columns.
     viewFromWorld: camera.getViewMatrix().m,
     clipFromView: camera.getProjectionMatrix().m,
     clipSpace: clipSpaceOf(engine, !camera.getScene().useRightHandedSystem),
     width: Math.max(1, Math.round(engine.getRenderWidth() * camera.viewport.width)),
     height: Math.max(1, Math.round(engine.getRenderHeight() * camera.viewport.height)),
-  });
-  found.farDepth = Math.max(Math.min(found.farDepth, far), found.nearDepth * (1 + 1e-6) + 1e-9);
-  return found;
+  };
+  return cameraUpTo(gnomon, matrices, far);
 }
 
 /** Texels beside its own that a look-up of the generator's filter reads. */
@@ -112,7 +97,7 @@ class Planner {
   }
 
   /** To be called for each texture that the generator makes, which may have cleared its observables then. */
-  watch(texture) {
+  watchTexture(texture) {
     texture.getCustomRenderList = (layer) => this.drawn[layer] ?? [];
     texture.onBeforeRenderObservable.add((layer) => this.setBias(layer));
     this.unwatch();
@@ -127,14 +112,12 @@ class Planner {
     for (const [observable, observer] of this.observers) observable.remove(observer);
   }
 
-  run(camera, cascades, { far, overlap }) {
+  planFor(camera, cascades, { far, overlap }) {
     const { gnomon, generator, bounds, history } = this;
     bounds.update();
     generator.light.computeTransformedInformation();  // where it has a parent
-    // Other filters than PCF read depths that are not divided by w. What was kept of a warped map must go.
+    // Other filters than PCF read depths that are not divided by w.
     const warps = generator.filter === ShadowGenerator.FILTER_PCF;
-    if (warps !== this.warps) history.clear();
-    this.warps = warps;
     const { width, height } = generator.getShadowMap().getSize();
     this.plan = gnomon.plan({
       camera: cameraOf(gnomon, camera, far),
@@ -195,7 +178,7 @@ export class GnomonCascadedShadowGenerator extends CascadedShadowGenerator {
     // A map holds all that casts into it, and depths that are clamped are not divided by w.
     this.depthClamp = false;
     this.planner = new Planner(gnomon, this, { options });
-    this.planner.watch(this.getShadowMap());
+    this.planner.watchTexture(this.getShadowMap());
   }
   get gnomon() {
     return this.planner.gnomon;
@@ -216,7 +199,7 @@ export class GnomonCascadedShadowGenerator extends CascadedShadowGenerator {
   // Babylon's constructor calls it before there is a planner.
   _initializeShadowMap() {
     super._initializeShadowMap();
-    this.planner?.watch(this.getShadowMap());
+    this.planner?.watchTexture(this.getShadowMap());
   }
 
   _computeShadowCastersBoundingInfo() {}
@@ -226,7 +209,7 @@ export class GnomonCascadedShadowGenerator extends CascadedShadowGenerator {
     if (!camera) return;
     this._cachedDirection.copyFrom(this._light.getShadowDirection(0)).normalize();
     const blend = this.cascadeBlendPercentage;
-    const maps = this.planner.run(camera, this.numCascades, { far: this._shadowMaxZ, overlap: blend });
+    const maps = this.planner.planFor(camera, this.numCascades, { far: this._shadowMaxZ, overlap: blend });
     for (let i = 0; i < this.numCascades; ++i) this.setCascade(i, maps[i], blend === 0 ? 0 : (maps[i + 1]?.overlap ?? 0) / blend);
   }
 
@@ -257,41 +240,29 @@ export class GnomonCascadedShadowGenerator extends CascadedShadowGenerator {
  * gnomon's map for a ShadowGenerator of a directional light: `new GnomonShadow(gnomon, generator)`. mapSize and filter are the
  * generator's. gnomon sets its bias and normalBias, and the light's customProjectionMatrixBuilder.
  */
-export class GnomonShadow {
+export class GnomonShadow extends Planner {
   constructor(gnomon, generator, { options = {}, camera } = {}) {
     if (!(generator instanceof ShadowGenerator) || generator instanceof CascadedShadowGenerator)
       throw new GnomonError('generator', 'gnomon: generator: expected a ShadowGenerator');
-    this.light = directional(generator.light);
-    this.generator = generator;
+    const light = directional(generator.light);
+    super(gnomon, generator, { options });
+    this.light = light;
     this.camera = camera;
-    this.planner = new Planner(gnomon, generator, { options });
-    this.before = this.light.customProjectionMatrixBuilder;
+    this.before = light.customProjectionMatrixBuilder;
     this.builder = (viewMatrix, meshes, result) => this.build(viewMatrix, result);
-    this.light.customProjectionMatrixBuilder = this.builder;
+    light.customProjectionMatrixBuilder = this.builder;
     this.watch();
-  }
-  get bounds() {
-    return this.planner.bounds;
-  }
-  get history() {
-    return this.planner.history;
-  }
-  get options() {
-    return this.planner.options;
-  }
-  get plan() {
-    return this.planner.plan;
   }
 
   watch() {
     this.texture = this.generator.getShadowMap();
-    this.planner.watch(this.texture);
+    this.watchTexture(this.texture);
     this.texture.onBeforeBindObservable.add(() => this.run());
   }
 
   run() {
     const camera = this.camera ?? this.light.getScene().activeCamera;
-    if (camera) this.planner.run(camera, 1, { far: this.light.shadowMaxZ, overlap: 0 });
+    if (camera) this.planFor(camera, 1, { far: this.light.shadowMaxZ, overlap: 0 });
   }
 
   build(viewMatrix, result) {
@@ -315,6 +286,6 @@ export class GnomonShadow {
   dispose() {
     if (this.light.customProjectionMatrixBuilder === this.builder) this.light.customProjectionMatrixBuilder = this.before;
     if (this.texture === this.generator.getShadowMap()) this.texture.getCustomRenderList = null;
-    this.planner.dispose();
+    super.dispose();
   }
 }

@@ -93,6 +93,10 @@ function objectOf(value, name) {
   if (value === null || typeof value !== 'object') throw new GnomonError(name, `gnomon: ${name}: expected an object`);
   return value;
 }
+// Visible points that a call without points samples the receivers with.
+const SAMPLES = 16384;
+/** Points that a prepared input has or is sampled with. */
+export const pointCount = ({ points }) => (points === undefined ? SAMPLES : points.length / 3);
 export const boxesOf = (values, name) => flatten(values, 6, name);
 export const pointsOf = (values, name) => flatten(values, 3, name);
 

@@ -1,10 +1,8 @@
 // How do many lights go through the C interface? full.d.ts is the manual.
-import { Handle } from './core.js';
+import { Handle, pointCount } from './core.js';
 import { GnomonError, structs, wholeOf } from './memory.js';
 
 const OUTCOMES = ['mapped', 'belowLeastSize', 'withoutReceiver', 'withoutCaster'];
-// Visible points that a call without points samples the receivers with.
-const SAMPLES = 16384;
 
 export class LightHistory extends Handle {
   constructor(gnomon, lights) {
@@ -49,7 +47,7 @@ export function planLights(gnomon, { lights, options = {}, history, ...view }) {
   const requests = listOf(lights);
   const count = requests.length;
   const { ready, bytes } = gnomon.prepare(view);
-  const points = ready.points === undefined ? SAMPLES : ready.points.length / 3;
+  const points = pointCount(ready);
   const room = Number(gnomon.memory.exports.gnomon_light_memory(BigInt(count), BigInt(points)));
   if (room === 0) throw new GnomonError('lights');
   const each = structs.light.bytes + structs.light_request.bytes + structs.light_maps.bytes;

@@ -1,9 +1,7 @@
 // How do pages go through the C interface? full.d.ts is the manual.
-import { Handle, pointsOf, boxesOf } from './core.js';
+import { Handle, boxesOf, pointCount, pointsOf } from './core.js';
 import { GnomonError, constants, numbersOf, structs, wholeOf } from './memory.js';
 
-// Visible points that a call without points samples the receivers with.
-const SAMPLES = 16384;
 const PLAN = (structs.page_plan.bytes + 15) & ~15;
 
 /** Memory of its own in the module, freed with its object. */
@@ -85,7 +83,7 @@ export function planPages(gnomon, { options = {}, history = {}, ...view }) {
   const { ready, bytes } = gnomon.prepare(view);
   const { memory } = gnomon;
   const { plan: planOptions, ...pageOptions } = options;
-  const points = ready.points === undefined ? SAMPLES : ready.points.length / 3;
+  const points = pointCount(ready);
   const capacity = wholeOf(options.capacity ?? 4096, 'page_options.capacity');
   const room = Number(memory.exports.gnomon_page_memory(capacity, BigInt(points)));
   if (room === 0) throw new GnomonError('page_options.capacity');

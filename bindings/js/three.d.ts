@@ -18,7 +18,7 @@ export class ShadowBounds {
 
 export interface GnomonShadowOptions {
   /**
-   * Of the plan. Default: fit warped_stable, objective storage. `fit: 'stable'` has a grid that never moves and larger texels, with
+   * Of the plan. Default: fit warped_stable. `fit: 'stable'` has a grid that never moves and larger texels, with
    * practical splits of lambda 0.7; `fit: 'tight'` the smallest texels, which follow the camera.
    * Cascades, sizes and clip space come from three.
    */

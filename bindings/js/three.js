@@ -3,7 +3,7 @@
 import { BackSide, Box3, FrontSide, Matrix4, OrthographicCamera, PerspectiveCamera, SpotLight, Vector3, WebGPUCoordinateSystem } from 'three';
 import { CSM } from 'three/addons/csm/CSM.js';
 import { SunLightShadow } from 'three/addons/lights/SunLightShadow.js';
-import { FollowedBoxes, loaded, withDefaults } from './adapter.js';
+import { FollowedBounds, cameraUpTo, loaded, withDefaults } from './adapter.js';
 
 const direction = /*@__PURE__*/ new Vector3();
 const shift = /*@__PURE__*/ new Matrix4();
@@ -19,17 +19,11 @@ const WIDEST = (65.9 / 180) * Math.PI;
  * Boxes of the meshes below an object that cast and receive shadows. follow() takes their places, each frame; update() gathers them
  * again, after meshes came, went or changed.
  */
-export class ShadowBounds {
+export class ShadowBounds extends FollowedBounds {
   constructor(gnomon, scene) {
+    super(gnomon);
     this.scene = scene;
-    this.all = { casters: new FollowedBoxes(loaded(gnomon)), receivers: new FollowedBoxes(gnomon) };
     this.update();
-  }
-  get casters() {
-    return this.all.casters.set;
-  }
-  get receivers() {
-    return this.all.receivers.set;
   }
 
   update() {
@@ -56,37 +50,28 @@ export class ShadowBounds {
   }
 
   follow() {
-    const { casters, receivers } = this.all;
-    casters.begin();
-    receivers.begin();
-    for (const { mesh, own, bounds, matrix } of this.meshes) {
-      const { min, max } = bounds;
-      // Most meshes stand still, and a comparison costs less than eight corners. NaN equals nothing, at first.
-      if (!matrix.equals(mesh.matrixWorld)) bounds.copy(own.boundingBox).applyMatrix4(matrix.copy(mesh.matrixWorld));
-      if (mesh.castShadow) casters.add(min.x, min.y, min.z, max.x, max.y, max.z);
-      if (mesh.receiveShadow) receivers.add(min.x, min.y, min.z, max.x, max.y, max.z);
-    }
-    casters.end();
-    receivers.end();
-  }
-
-  dispose() {
-    this.all.casters.dispose();
-    this.all.receivers.dispose();
+    this.gather((casters, receivers) => {
+      for (const { mesh, own, bounds, matrix } of this.meshes) {
+        const { min, max } = bounds;
+        // Most meshes stand still, and a comparison costs less than eight corners. NaN equals nothing, at first.
+        if (!matrix.equals(mesh.matrixWorld)) bounds.copy(own.boundingBox).applyMatrix4(matrix.copy(mesh.matrixWorld));
+        if (mesh.castShadow) casters.add(min.x, min.y, min.z, max.x, max.y, max.z);
+        if (mesh.receiveShadow) receivers.add(min.x, min.y, min.z, max.x, max.y, max.z);
+      }
+    });
   }
 }
 
 /** The camera that three draws with, as gnomon counts it. `far`: shadows end there at the latest. */
 export function cameraOf(gnomon, camera, [width, height], far = Infinity) {
-  const found = gnomon.cameraFrom({
+  const matrices = {
     viewFromWorld: camera.matrixWorldInverse.elements,
     clipFromView: camera.projectionMatrix.elements,
     clipSpace: clipSpaceOf(camera),
     width,
     height,
-  });
-  found.farDepth = Math.max(Math.min(found.farDepth, far), found.nearDepth * (1 + 1e-6) + 1e-9);
-  return found;
+  };
+  return cameraUpTo(gnomon, matrices, far);
 }
 
 const clipSpaceOf = ({ coordinateSystem, reversedDepth }) =>
@@ -145,22 +130,37 @@ function setEmpty(frustum) {
   }
 }
 
+// What each of the shadows below has, as the manual says.
+function begin(shadow, gnomon, scene, { options = {}, resolution = [1920, 1080], bounds }) {
+  shadow.gnomon = loaded(gnomon);
+  shadow.bounds = bounds ?? new ShadowBounds(gnomon, scene);
+  shadow.ownsBounds = bounds === undefined;
+  shadow.history = gnomon.history();
+  shadow.options = withDefaults(options);
+  shadow.resolution = resolution;
+  shadow.plan = null;
+}
+function planFor({ gnomon, bounds, history, options, resolution }, light, camera, far, more) {
+  bounds.follow();
+  const { casters, receivers } = bounds;
+  return gnomon.plan({ camera: cameraOf(gnomon, camera, resolution, far), light, casters, receivers, options: { ...options, ...more }, history });
+}
+function end({ history, bounds, ownsBounds }) {
+  history.dispose();
+  if (ownsBounds) bounds.dispose();
+}
+
 /**
  * The shadow of a SunLight: `sun.shadow = new GnomonSunShadow(gnomon, scene)`. As three's own it has two maps in one texture,
  * ends at `camera.far`, and takes `mapSize` and `radius`. `bias` and `normalBias` come on top of gnomon's.
  */
 export class GnomonSunShadow extends SunLightShadow {
   /** options: of the plan; resolution: pixels of the picture, [1920, 1080]; bounds: a ShadowBounds to share. */
-  constructor(gnomon, scene, { options = {}, resolution = [1920, 1080], bounds } = {}) {
+  constructor(gnomon, scene, options = {}) {
     super();
     this.isGnomonSunShadow = true;
-    this.gnomon = loaded(gnomon);
-    this.bounds = bounds ?? new ShadowBounds(gnomon, scene);
-    this.ownsBounds = bounds === undefined;
-    this.history = gnomon.history();
-    this.options = { splitOverlap: 0.1, ...withDefaults(options) };
-    this.resolution = resolution;
-    this.plan = null;
+    begin(this, gnomon, scene, options);
+    this.options = { splitOverlap: 0.1, ...this.options };
   }
 
   updateMatrices(light, viewCamera) {
@@ -170,20 +170,11 @@ export class GnomonSunShadow extends SunLightShadow {
     const inset = Math.min(0.25, (Math.ceil(this.radius) + 1) / this.mapSize.x);
     for (let i = 0; i < count; ++i) this._viewports[i].set(i + inset, inset, 1 - 2 * inset, 1 - 2 * inset);
     direction.setFromMatrixPosition(light.matrixWorld).negate();
-    this.bounds.follow();
-    this.plan = this.gnomon.plan({
-      camera: cameraOf(this.gnomon, viewCamera, this.resolution, this.camera.far),
-      light: { direction: direction.toArray() },
-      casters: this.bounds.casters,
-      receivers: this.bounds.receivers,
-      options: {
-        ...this.options,
-        cascades: count,
-        resolutionMaxSize: Math.max(4, Math.floor(this.mapSize.x * (1 - 2 * inset))),
-        filterTexels: Math.ceil(this.radius) + 1,
-        clipSpace: clipSpaceOf(this.camera),
-      },
-      history: this.history,
+    this.plan = planFor(this, { direction: direction.toArray() }, viewCamera, this.camera.far, {
+      cascades: count,
+      resolutionMaxSize: Math.max(4, Math.floor(this.mapSize.x * (1 - 2 * inset))),
+      filterTexels: Math.ceil(this.radius) + 1,
+      clipSpace: clipSpaceOf(this.camera),
     });
     for (let i = 0; i < count; ++i) this.setMap(i, this.plan.maps[i], this.plan.maps[i + 1]);
   }
@@ -206,8 +197,7 @@ export class GnomonSunShadow extends SunLightShadow {
 
   dispose() {
     super.dispose();
-    this.history.dispose();
-    if (this.ownsBounds) this.bounds.dispose();
+    end(this);
   }
 }
 
@@ -218,16 +208,10 @@ export class GnomonSunShadow extends SunLightShadow {
  */
 export class GnomonSpotShadow extends SpotLightShadow {
   /** options, resolution, bounds: as those of GnomonSunShadow. */
-  constructor(gnomon, scene, { options = {}, resolution = [1920, 1080], bounds } = {}) {
+  constructor(gnomon, scene, options = {}) {
     super();
     this.isGnomonSpotShadow = true;
-    this.gnomon = loaded(gnomon);
-    this.bounds = bounds ?? new ShadowBounds(gnomon, scene);
-    this.ownsBounds = bounds === undefined;
-    this.history = gnomon.history();
-    this.options = withDefaults(options);
-    this.resolution = resolution;
-    this.plan = null;
+    begin(this, gnomon, scene, options);
     this.fitted = new PerspectiveCamera();
   }
 
@@ -241,19 +225,12 @@ export class GnomonSpotShadow extends SpotLightShadow {
     // The matrix also places the light's picture.
     if (viewCamera === undefined || light.map || !(light.angle < WIDEST)) return;
     direction.setFromMatrixPosition(light.target.matrixWorld).sub(place.setFromMatrixPosition(light.matrixWorld));
-    this.bounds.follow();
-    this.plan = this.gnomon.plan({
-      camera: cameraOf(this.gnomon, viewCamera, this.resolution),
-      light: { kind: 'spot', position: place.toArray(), direction: direction.toArray(), outerRadians: light.angle, range: light.distance || this.camera.far },
-      casters: this.bounds.casters,
-      receivers: this.bounds.receivers,
-      options: {
-        ...this.options,
-        resolutionMaxSize: Math.max(4, Math.min(this.mapSize.x, this.mapSize.y)),
-        filterTexels: Math.ceil(this.radius) + 1,
-        clipSpace: clipSpaceOf(this.camera),
-      },
-      history: this.history,
+    const range = light.distance || this.camera.far;
+    const cone = { kind: 'spot', position: place.toArray(), direction: direction.toArray(), outerRadians: light.angle, range };
+    this.plan = planFor(this, cone, viewCamera, Infinity, {
+      resolutionMaxSize: Math.max(4, Math.min(this.mapSize.x, this.mapSize.y)),
+      filterTexels: Math.ceil(this.radius) + 1,
+      clipSpace: clipSpaceOf(this.camera),
     });
     const [map, more] = this.plan.maps;
     if (map === undefined) {
@@ -286,8 +263,7 @@ export class GnomonSpotShadow extends SpotLightShadow {
 
   dispose() {
     super.dispose();
-    this.history.dispose();
-    if (this.ownsBounds) this.bounds.dispose();
+    end(this);
   }
 }
 
@@ -296,15 +272,9 @@ export class GnomonSpotShadow extends SpotLightShadow {
  * CSM, and `options` of the plan, `resolution` and `bounds` as GnomonSunShadow. update() plans; updateFrustums() is not needed.
  */
 export class GnomonCSM extends CSM {
-  constructor(gnomon, { options = {}, resolution = [1920, 1080], bounds, ...data }) {
+  constructor(gnomon, { options, resolution, bounds, ...data }) {
     super(data);
-    this.gnomon = loaded(gnomon);
-    this.bounds = bounds ?? new ShadowBounds(gnomon, data.parent);
-    this.ownsBounds = bounds === undefined;
-    this.history = gnomon.history();
-    this.options = withDefaults(options);
-    this.resolution = resolution;
-    this.plan = null;
+    begin(this, gnomon, data.parent, { options, resolution, bounds });
     for (const { shadow } of this.lights) {
       shadow.camera = new OrthographicCamera();
       // The matrices are set by update(). three computes the projection again when it makes the texture.
@@ -320,20 +290,11 @@ export class GnomonCSM extends CSM {
     const { radius } = this.lights[0].shadow;
     // three updates the places of meshes after this.
     this.bounds.scene.updateMatrixWorld();
-    this.bounds.follow();
-    this.plan = this.gnomon.plan({
-      camera: cameraOf(this.gnomon, camera, this.resolution, far),
-      light: { direction: lightDirection.toArray() },
-      casters: this.bounds.casters,
-      receivers: this.bounds.receivers,
-      options: {
-        ...this.options,
-        cascades: this.cascades,
-        resolutionMaxSize: this.shadowMapSize,
-        filterTexels: Math.ceil(radius) + 1,
-        clipSpace: clipSpaceOf(camera),
-      },
-      history: this.history,
+    this.plan = planFor(this, { direction: lightDirection.toArray() }, camera, far, {
+      cascades: this.cascades,
+      resolutionMaxSize: this.shadowMapSize,
+      filterTexels: Math.ceil(radius) + 1,
+      clipSpace: clipSpaceOf(camera),
     });
     this.lights.forEach((light, i) => this.setLight(light, this.plan.maps[i]));
     // Depths as the add-on's shader counts them. Lights without a map serve none.
@@ -365,7 +326,6 @@ export class GnomonCSM extends CSM {
 
   dispose() {
     super.dispose();
-    this.history.dispose();
-    if (this.ownsBounds) this.bounds.dispose();
+    end(this);
   }
 }
