@@ -121,7 +121,9 @@ int run(const char* picture) {
   Stage stage(street, kWidth, kHeight);
   std::vector<Way> ways{ogre_way("OGRE Focused", Ogre::FocusedShadowCameraSetup::create()),
                         ogre_way("OGRE LiSPSM", Ogre::LiSPSMShadowCameraSetup::create()),
-                        gnomon_way("gnomon, one map", street, 1), pssm_way(street.camera(0, kWidth, kHeight)),
+                        ogre_way("OGRE LiSPSM, n_opt", Ogre::LiSPSMShadowCameraSetup::create(1.0f, false)),
+                        gnomon_way("gnomon, one map", street, 1),
+                        pssm_way(street.camera(0, kWidth, kHeight)),
                         gnomon_way("gnomon, four maps", street, kMaxTextures)};
   std::printf(
       "OGRE %d.%d.%d, RenderSystem_GL on %s\n%d frames of %d x %d pixels, one map of %d x %d texels or four "

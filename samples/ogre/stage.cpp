@@ -27,20 +27,42 @@ void main() {
 }
 )";
 
-// The first map whose depths hold the point, one tap of a comparing sampler.
+// A map's depths, moved off the surface by the growth over a texel times a factor, as glPolygonOffset moves
+// them.
+constexpr const char* kCasterVertex = R"(#version 120
+uniform mat4 clip_from_object;
+attribute vec4 vertex;
+void main() { gl_Position = clip_from_object * vertex; }
+)";
+constexpr const char* kCasterFragment = R"(#version 120
+uniform float slope_factor;
+void main() {
+  float depth = gl_FragCoord.z;
+  gl_FragColor = vec4(depth + slope_factor * max(abs(dFdx(depth)), abs(dFdy(depth))));
+}
+)";
+
+// The first map whose depths hold the point; what a comparing sampler does, by hand: four texels, weighted
+// bilinearly.
 constexpr const char* kFragment = R"(#version 120
-uniform sampler2DShadow map0;
+uniform sampler2D map0;
 #if MAPS > 1
-uniform sampler2DShadow map1, map2, map3;
+uniform sampler2D map1, map2, map3;
 #endif
 uniform vec4 begins, ends, biases, light;
+uniform float texels;
 varying vec4 at[MAPS];
 varying vec3 surface_normal;
 varying float view_depth;
-float compare(sampler2DShadow map, vec4 h, float bias) {
+float compare(sampler2D map, vec4 h, float bias) {
   vec3 p = h.xyz / h.w;
   if (h.w <= 0.0 || any(lessThan(p.xy, vec2(0.0))) || any(greaterThan(p.xy, vec2(1.0)))) return 1.0;
-  return shadow2D(map, vec3(p.xy, min(0.5 * p.z + 0.5 - bias, 1.0))).r;
+  float depth = min(0.5 * p.z + 0.5 - bias, 1.0);
+  vec2 texel = p.xy * texels - 0.5, first = floor(texel), part = texel - first;
+  vec4 lit;
+  for (int i = 0; i < 4; ++i)
+    lit[i] = depth <= texture2D(map, (first + vec2(i == 1 || i == 3 ? 1.5 : 0.5, i >= 2 ? 1.5 : 0.5)) / texels).r ? 1.0 : 0.0;
+  return mix(mix(lit[0], lit[1], part.x), mix(lit[2], lit[3], part.x), part.y);
 }
 float lit_share() {
   if (view_depth >= begins.x && view_depth <= ends.x) return compare(map0, at[0], biases.x);
@@ -82,7 +104,11 @@ struct Stage::Singletons {
     root->setRenderSystem(root->getAvailableRenderers().at(0));
     root->initialise(false);
     const Ogre::NameValuePairList hidden{{"hidden", "true"}};
+    // OGRE compiles its shadow volumes' programs with every shadow technique.
+    Ogre::ResourceGroupManager::getSingleton().addResourceLocation(GNOMON_OGRE_MEDIA "/ShadowVolume",
+                                                                   "FileSystem", Ogre::RGN_INTERNAL);
     root->createRenderWindow("ogre", 16, 16, false, &hidden);
+    Ogre::ResourceGroupManager::getSingleton().initialiseAllResourceGroups();
   }
 };
 
@@ -111,10 +137,15 @@ Stage::Stage(const Street& street, int width, int height)
   viewport->setBackgroundColour(Ogre::ColourValue(0.62f, 0.74f, 0.9f));
   viewport->setOverlaysEnabled(false);
 
-  // Depths alone, moved off the surface by the rasterizer.
   caster_ = Ogre::MaterialManager::getSingleton().create("caster", Ogre::RGN_DEFAULT);
-  caster_->getTechnique(0)->getPass(0)->setLightingEnabled(false);
-  caster_->getTechnique(0)->getPass(0)->setCullingMode(Ogre::CULL_NONE);
+  Ogre::Pass* const pass = caster_->getTechnique(0)->getPass(0);
+  pass->setVertexProgram(program("caster vertex", Ogre::GPT_VERTEX_PROGRAM, kCasterVertex, 1)->getName());
+  pass->setFragmentProgram(
+      program("caster fragment", Ogre::GPT_FRAGMENT_PROGRAM, kCasterFragment, 1)->getName());
+  pass->getVertexProgramParameters()->setNamedAutoConstant(
+      "clip_from_object", Ogre::GpuProgramParameters::ACT_WORLDVIEWPROJ_MATRIX);
+  pass->setCullingMode(Ogre::CULL_NONE);
+  caster_->load();
   scene_->setShadowTextureCasterMaterial(caster_);
   add_boxes(street);
 }
@@ -163,9 +194,7 @@ Ogre::MaterialPtr Stage::material(std::size_t textures) {
     Ogre::TextureUnitState* const unit = pass->createTextureUnitState();
     unit->setContentType(Ogre::TextureUnitState::CONTENT_SHADOW);
     unit->setTextureAddressingMode(Ogre::TextureUnitState::TAM_CLAMP);
-    unit->setTextureFiltering(Ogre::FO_LINEAR, Ogre::FO_LINEAR, Ogre::FO_NONE);
-    unit->setTextureCompareEnabled(true);
-    unit->setTextureCompareFunction(Ogre::CMPF_LESS_EQUAL);
+    unit->setTextureFiltering(Ogre::TFO_NONE);
   }
   made->load();
   return made;
@@ -176,12 +205,14 @@ void Stage::use(const Ogre::ShadowCameraSetupPtr& setup, std::size_t count, int 
   count_ = count;
   scene_->setShadowTextureCountPerLightType(Ogre::Light::LT_DIRECTIONAL, count);
   scene_->setShadowTextureSettings(static_cast<Ogre::uint16>(texels), static_cast<Ogre::uint16>(count),
-                                   Ogre::PF_DEPTH32);
+                                   Ogre::PF_FLOAT32_R);
   scene_->setShadowCameraSetup(setup);
   material_ = material(count);
   for (Ogre::ManualObject* const box : boxes_) box->setMaterial(0, material_);
-  // OGRE's sign is towards the viewer, here the light.
-  caster_->getTechnique(0)->getPass(0)->setDepthBias(0.0f, -static_cast<float>(slope_factor));
+  caster_->getTechnique(0)->getPass(0)->getFragmentProgramParameters()->setNamedConstant(
+      "slope_factor", static_cast<Ogre::Real>(slope_factor));
+  material_->getTechnique(0)->getPass(0)->getFragmentProgramParameters()->setNamedConstant(
+      "texels", static_cast<Ogre::Real>(texels));
 }
 
 void Stage::look(const gnomon::Camera& camera) {
