@@ -34,6 +34,11 @@ void GnomonSetup::getShadowCamera(const Ogre::SceneManager*, const Ogre::Camera*
     const gnomon::CameraFrom from = gnomon::camera_from(
         glm_from(Ogre::Matrix4(viewer->getViewMatrix(true))), glm_from(viewer->getProjectionMatrix()),
         gnomon::kOpenGl, viewport->getActualWidth(), viewport->getActualHeight());
+    if (from.error != gnomon::CameraError::none || light->getType() != Ogre::Light::LT_DIRECTIONAL)
+      OGRE_EXCEPT(Ogre::Exception::ERR_INVALIDPARAMS,
+                  from.error == gnomon::CameraError::none ? "only directional lights are planned for"
+                                                          : std::string(gnomon::to_string(from.error)),
+                  "GnomonSetup::getShadowCamera");
     plan_ = gnomon::make_plan(from.camera, gnomon::DirectionalLight{glm_from(light->getDerivedDirection())},
                               {boxes_, boxes_}, options_);
   }

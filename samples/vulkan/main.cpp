@@ -115,7 +115,7 @@ Faults draw_walk(Device& device, const Street& street, const gnomon::PlanOptions
       pictures.push_back(drawn);
     }
     if (frame == 0 && picture != nullptr)
-      write_pictures(picture, exact, std::array{pictures[1], pictures[3]});
+      write_pictures(picture, exact, std::array{pictures[0], pictures[3]});
   }
   return faults;
 }
