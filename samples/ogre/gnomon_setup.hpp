@@ -20,8 +20,7 @@ class GnomonSetup : public Ogre::ShadowCameraSetup {
                        const Ogre::Viewport* viewport, const Ogre::Light* light, Ogre::Camera* texture_camera,
                        std::size_t iteration) const override;
 
-  /// Of the last frame: depths that each map serves, for the shader that selects among them, and what biases
-  /// it needs.
+  /// The last frame's plan. Shaders select by its view depths, and take its biases.
   [[nodiscard]] const gnomon::ShadowPlan& plan() const { return plan_; }
 
  private:

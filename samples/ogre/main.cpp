@@ -2,8 +2,8 @@
 // equal texels, by one shader with one translated bias, against exact rays.
 //   ogre_sample [FOLDER]    writes one_map.png and four_maps.png there; needs a display with OpenGL; xvfb-run
 //   gives one
-// Ends with 1 where a shadow camera's matrix differs from the plan's, or gnomon's maps have more wrong pixels
-// than OGRE's best of as many maps.
+// Ends with 1 where a shadow camera's matrix differs from the plan's, or gnomon's maps have more
+// misclassified pixels than OGRE's best of as many maps.
 #include <Ogre.h>
 
 #include <OgreShadowCameraSetupFocused.h>
@@ -124,7 +124,7 @@ int run(const char* folder) {
   if (folder != nullptr) std::filesystem::create_directories(folder);
   const Street street;
   Stage stage(street, kWidth, kHeight);
-  // LiSPSMShadowCameraSetup::create() drops its arguments.
+  // create() of this class drops its arguments.
   std::vector<Way> ways{
       ogre_way("OGRE Focused", Ogre::FocusedShadowCameraSetup::create()),
       ogre_way("OGRE LiSPSM", Ogre::LiSPSMShadowCameraSetup::create()),
@@ -167,7 +167,7 @@ int run(const char* folder) {
   if (folder != nullptr) {
     // OGRE's best of one map beside gnomon's, and of four.
     write_pictures(std::filesystem::path(folder) / "one_map.png", exact[0], std::array{shown[2], shown[3]});
-    write_pictures(std::filesystem::path(folder) / "four_maps.png", exact[0], std::array{shown[4], shown[6]});
+    write_pictures(std::filesystem::path(folder) / "four_maps.png", exact[0], std::array{shown[5], shown[6]});
   }
 
   std::printf("%-20s %13s %8s %10s\n", "", "misclassified", "m p95", "set-up, us");

@@ -15,8 +15,8 @@ namespace sample {
 
 inline constexpr std::size_t kMaxTextures = 4;
 
-/// What the shader needs beside OGRE's own matrices: for each map, the view depths that it serves, and what
-/// is taken off its depths at look-ups.
+/// Numbers of each map that the shader needs beside OGRE's own matrices: the view depths that it serves, and
+/// its bias, which look-ups take off.
 struct MapNumbers {
   std::array<float, kMaxTextures> begin{}, end{}, bias{};
 };

@@ -31,7 +31,7 @@ inline constexpr std::size_t kBoxVertices =
     36;  ///< of a box's twelve triangles, counter-clockwise from outside
 void append_box(const gnomon::Box& box, std::vector<Vertex>& out);
 
-/// What a camera sees, by rays in double; rows top to bottom.
+/// The picture of a camera by rays in double; rows top to bottom.
 struct ExactPicture {
   enum Pixel : std::int8_t {
     uncounted = -1,
@@ -62,8 +62,8 @@ void count_wrong(const ExactPicture& exact, std::span<const float> lit, Wrong& w
                                          std::span<const double> ends, int map_size,
                                          const gnomon::BiasOptions& bias);
 
-/// Pictures beside each other above the same pictures with their wrong pixels in red, as a PNG file. Each is
-/// width x height x 3 bytes; `lit` as count_wrong takes it.
+/// Pictures beside each other above the same pictures with their misclassified pixels in red, as a PNG file.
+/// Each is width x height x 3 bytes; `lit` as count_wrong takes it.
 struct Drawn {
   std::vector<std::uint8_t> rgb;
   std::vector<float> lit;

@@ -1,5 +1,5 @@
-// What Vulkan 1.3 asks of every program: an instance with validation, a device, memory, pipelines. Nothing
-// here is about shadows.
+// The part of Vulkan 1.3 that every program needs: an instance with validation, a device, memory, pipelines.
+// Nothing here is about shadows.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -38,7 +38,7 @@ struct Image {
 
 using Spirv = std::span<const std::uint32_t>;
 
-/// What differs between pipelines. All of them take vertices of a position and a normal, compare depths by
+/// The differences between pipelines. All of them take vertices of a position and a normal, compare depths by
 /// GREATER_OR_EQUAL, draw both sides of triangles, and leave viewport, scissor and depth bias to the
 /// commands.
 struct PipelineOf {
@@ -48,7 +48,7 @@ struct PipelineOf {
 };
 
 /// A device, one queue of it, and one layout of bindings: 0 a uniform buffer, 1 a sampled image; push
-/// constants of 128 bytes. What it makes lives as long as it does.
+/// constants of 128 bytes. Whatever it makes lives as long as it does.
 class Device {
  public:
   explicit Device(bool validated);

@@ -2,7 +2,8 @@
 // at equal texels, by one shader with one translated bias, against exact rays.
 //   vulkan_sample [PICTURE.png] [--no-validation]
 // Ends with 1 where validation speaks, matrices on the device differ from the plan's, one pass over all maps
-// draws other shadows than a pass a map, or gnomon's maps have more wrong pixels than the ordinary ones.
+// draws other shadows than a pass a map, or gnomon's maps have more misclassified pixels than the ordinary
+// ones.
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -44,7 +45,7 @@ double microseconds_of(const std::function<void()>& work) {
   return median(each);
 }
 
-/// What may not be.
+/// Faults that end the program with 1.
 struct Faults {
   int unlike = 0, maps = 0;                 // maps on the device that differ from the plan's, of how many
   std::int64_t layered = 0, multiview = 0;  // pixels that one pass over all maps draws otherwise

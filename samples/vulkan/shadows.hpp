@@ -13,7 +13,7 @@ namespace sample {
 /// Clip space of the maps: Vulkan's, with reversed depths as the rest of the engine has them.
 inline constexpr gnomon::ClipSpace kMapClipSpace{gnomon::NdcDepth::zero_to_one, true, true};
 
-/// What shaders read of a plan; the same layout as in depth.vert and scene.frag.
+/// The plan as shaders read it; the same layout as in depth.vert and scene.frag.
 struct ShadowData {
   std::array<glm::mat4, gnomon::kMaxMaps> clip_from_point;  ///< for drawing; points relative to the eye
   std::array<glm::vec4, gnomon::kMaxMaps> depth_bias;       ///< x: taken off depths at look-ups, 0..1
@@ -31,8 +31,7 @@ class Shadows {
   /// `vertices`: those of box i begin at 36 i.
   Shadows(Device& device, int map_size, int maps, VkBuffer vertices);
   /// How maps are drawn. layered: an instance of each caster for each map, whose vertex shader chooses the
-  /// layer. multiview: the same by the device itself, for up to
-  /// VkPhysicalDeviceMultiviewProperties::maxMultiviewViewCount maps.
+  /// layer. multiview: the same by the device itself, for no more maps than it has views.
   enum class Passes { one_per_map, layered, multiview };
   [[nodiscard]] bool has(Passes passes) const {
     return pipelines_[static_cast<std::size_t>(passes)] != VK_NULL_HANDLE;
