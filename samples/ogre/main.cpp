@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 
@@ -189,6 +190,11 @@ int run(const char* folder) {
 int main(int argc, char** argv) {
   if (argc > 2 || (argc == 2 && argv[1][0] == '-')) {
     std::fprintf(stderr, "usage: ogre_sample [FOLDER]\n");
+    return 2;
+  }
+  // RenderSystem_GL ends with a crash there.
+  if (std::getenv("DISPLAY") == nullptr) {
+    std::fprintf(stderr, "ogre_sample: no display: run it by xvfb-run -a\n");
     return 2;
   }
   try {

@@ -12,6 +12,7 @@ void check(VkResult result, const char* call) {
   if (result != VK_SUCCESS) throw VulkanError(std::string(call) + " failed with " + std::to_string(result));
 }
 
+constexpr const char* kNoDevice = "no device with Vulkan 1.3 (Debian: mesa-vulkan-drivers)";
 constexpr const char* kValidation = "VK_LAYER_KHRONOS_validation";
 
 bool has_layer(const char* name) {
@@ -53,7 +54,9 @@ void Device::make_instance(bool validated) {
     info.ppEnabledLayerNames = &kValidation;
     info.ppEnabledExtensionNames = &extension;
   }
-  check(vkCreateInstance(&info, nullptr, &instance_), "vkCreateInstance");
+  const VkResult made = vkCreateInstance(&info, nullptr, &instance_);
+  if (made == VK_ERROR_INCOMPATIBLE_DRIVER) throw VulkanError(kNoDevice);
+  check(made, "vkCreateInstance");
   if (!validated) return;
   const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
       vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
@@ -76,8 +79,7 @@ void Device::choose_device() {
             std::to_string(VK_API_VERSION_PATCH(version));
     break;
   }
-  if (physical_ == VK_NULL_HANDLE)
-    throw VulkanError("no device with Vulkan 1.3 (Debian: mesa-vulkan-drivers)");
+  if (physical_ == VK_NULL_HANDLE) throw VulkanError(kNoDevice);
 
   VkPhysicalDeviceVulkan11Features v11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES};
   VkPhysicalDeviceVulkan12Features v12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &v11};
