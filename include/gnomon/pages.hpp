@@ -47,7 +47,7 @@ namespace page_policies {
 
 /// Bits that a renderer reports of a visible point, for policies that read the rendered image.
 enum PageFeedback : std::uint8_t {
-  kShadowEdge = 1,     ///< a shadow edge lies at the point or next to it: `edges`
+  kShadowEdge = 1,     ///< a shadow edge lies at the point or next to it: `edges`, `picture`
   kShadowChanged = 2,  ///< the last refinement changed whether the point is lit: `queried`
   kDepthEdge = 4,      ///< view depths jump at the point or next to it: `tiled`
 };
@@ -147,7 +147,7 @@ struct PagePlan {
   std::span<const Page> pages;           ///< resident pages, coarsest level first
   std::span<const std::uint32_t> table;  ///< hash table over the pages, see page_at; shaders read it as it is
   double target_m = 0.0;     ///< error that the levels were chosen for: larger than requested where the pool
-                             ///< is too small
+                             ///< is too small. Policy `picture` then has it in pages that weigh as much as the mean
   std::uint64_t points = 0;  ///< visible points that pages serve
   std::uint64_t points_outside = 0;           ///< that lie beside all receivers or the light's range: lit
   std::uint64_t points_coarser = 0;           ///< left to a coarser level by PageOptions::share

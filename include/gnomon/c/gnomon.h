@@ -757,7 +757,7 @@ GNOMON_EXPERIMENTAL int32_t gnomon_shadow_edge_points(const gnomon_shadow_pictur
 
 /// Bits of gnomon_page_history::feedback, for policies that read the rendered image.
 enum {
-  GNOMON_SHADOW_EDGE = 1,     ///< a shadow edge lies at the point or next to it: policy edges
+  GNOMON_SHADOW_EDGE = 1,     ///< a shadow edge lies at the point or next to it: policies edges, picture
   GNOMON_SHADOW_CHANGED = 2,  ///< the last refinement changed whether the point is lit: policy queried
   GNOMON_DEPTH_EDGE = 4       ///< view depths jump at the point or next to it: policy tiled
 };

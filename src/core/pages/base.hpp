@@ -35,14 +35,24 @@ struct PageGrid {
   std::int32_t columns, rows;
 };
 
+/// How much points of one page weigh together: an entry of a hash table.
+struct PageWeight {
+  std::uint32_t key = 0;  ///< 0: empty
+  float weight = 0.0f;
+};
+
 /// Levels of all bases.
 inline constexpr std::size_t kLadders = std::size_t{kMaxMaps} * kLadder;
-static_assert(kLadders * sizeof(PageGrid) <= kMaxPageLevels * sizeof(ShadowMap));
+/// Entries of the table of weights.
+inline constexpr std::size_t kPageWeights = 1 << 14;
+static_assert(kLadders * sizeof(PageGrid) + kPageWeights * sizeof(PageWeight) + 16 <=
+              kMaxPageLevels * sizeof(ShadowMap));
 
 /// The caller's memory, in parts.
 struct PageMemory {
   std::span<ShadowMap> levels;     ///< kMaxPageLevels; the plan uses a few dozen
   std::span<PageGrid> grids;       ///< kLadders, in the place of `levels`, which are written last
+  std::span<PageWeight> weights;   ///< kPageWeights, behind the grids
   std::span<Page> pages;           ///< PageOptions::capacity
   std::span<std::uint32_t> table;  ///< page_table_size(capacity)
   std::span<PagePoint> points;     ///< at least as many as visible points

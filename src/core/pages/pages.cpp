@@ -55,9 +55,12 @@ PageMemory parts_of(std::span<std::byte> memory, int capacity) noexcept {
   const std::size_t points = std::min<std::size_t>((memory.size() - others) / sizeof(PagePoint),
                                                    std::numeric_limits<std::uint32_t>::max() - 1);
   MemoryParts parts(memory), grids(memory);
-  return {parts.take<ShadowMap>(kMaxPageLevels), grids.take<PageGrid>(kLadders),
+  return {parts.take<ShadowMap>(kMaxPageLevels),
+          grids.take<PageGrid>(kLadders),
+          grids.take<PageWeight>(kPageWeights),
           parts.take<Page>(static_cast<std::size_t>(capacity)),
-          parts.take<std::uint32_t>(page_table_size(capacity)), parts.take<PagePoint>(points)};
+          parts.take<std::uint32_t>(page_table_size(capacity)),
+          parts.take<PagePoint>(points)};
 }
 
 std::string_view invalid_points(const View& view, const PageHistory& history,
@@ -131,14 +134,14 @@ void choose_sizes(PageContext& c, PagePlan& plan) noexcept {
 /// Coarsens all levels by the same factor until the pool holds their pages. False where it never does.
 bool fit_pool(PageContext& c, PagePlan& plan) noexcept {
   if (fits(c, 1.0, plan)) return true;
-  // Half octaves up, then eighths back: a pool is filled to about a fifth.
-  constexpr double kStep = 0.5;
-  constexpr int kMaxSteps = 120;
+  // Octaves up, then thirty-seconds back: a twentieth of a pool stays empty.
+  constexpr double kStep = 1.0;
+  constexpr int kMaxSteps = 60, kHalvings = 5;
   for (int i = 1; i <= kMaxSteps; ++i) {
     const double enough = kStep * i;
     if (!fits(c, elementary::exp2(enough), plan)) continue;
     double high = enough, low = enough - kStep;
-    for (int halving = 0; halving < 2; ++halving) {
+    for (int halving = 0; halving < kHalvings; ++halving) {
       const double middle = 0.5 * (low + high);
       (fits(c, elementary::exp2(middle), plan) ? high : low) = middle;
     }

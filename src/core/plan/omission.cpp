@@ -138,7 +138,7 @@ OmissionText describe(const Omission& o) noexcept {
       break;
     case OmissionKind::pages_coarsened:
       what("levels of pages");
-      why("the pool holds too few pages for an error of %.3g; all levels are as coarse as one of %.3g needs",
+      why("the pool holds too few pages for an error of %.3g; levels are as coarse as one of %.3g needs",
           o.a, o.b);
       break;
     case OmissionKind::points_left_coarser:

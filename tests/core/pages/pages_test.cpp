@@ -453,6 +453,93 @@ TEST(Pages, edges_spend_texels_at_shadow_edges_alone) {
   EXPECT_GT(street.plan(memory).pages.size(), 2 * plan.pages.size());
 }
 
+/// Sum of the larger of m_s and m_t over the points at shadow edges.
+double error_at_edges(const Street& street, const PagePlan& plan) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < street.points.size(); ++i) {
+    if ((street.feedback[i] & kShadowEdge) == 0) continue;
+    const int page = page_serving(plan, street.points[i]);
+    EXPECT_GE(page, 0);
+    if (page < 0) continue;
+    const ShadowMap& level = plan.levels[plan.pages[static_cast<std::size_t>(page)].level];
+    const PointAliasing m = measure_perspective(level, street.camera, street.points[i]);
+    sum += std::max(m.m_s, m.m_t);
+  }
+  return sum;
+}
+
+TEST(Pages, picture_leaves_the_least_error_at_edges_in_a_pool_that_is_too_small) {
+  Street street;
+  street.points.clear();
+  // A wide ground, whose far half has few points to a page, and edges in stripes across it.
+  for (int row = 0; row < 100; ++row) {
+    for (int column = 0; column < 60; ++column)
+      street.points.push_back({-18.0 + 0.6 * column, 0.0, -4.0 - 0.02 * row * row});
+  }
+  street.feedback.assign(street.points.size(), 0);
+  for (std::size_t i = 0; i < street.points.size(); ++i)
+    street.feedback[i] = i / 60 % 25 < 3 ? kShadowEdge : 0;
+  street.options.page_texels = 64;
+  street.options.target_m = 0.1;
+  for (const int capacity : {12, 40, 150}) {
+    street.options.capacity = capacity;
+    std::vector<std::byte> memory(page_memory(capacity, street.points.size()));
+    const auto error_by = [&](const PagePolicy& policy) {
+      street.options.policy = &policy;
+      const PagePlan plan = street.plan(memory);
+      EXPECT_EQ(plan.status, PlanStatus::ok);
+      EXPECT_LE(plan.pages.size(), static_cast<std::size_t>(capacity));
+      return error_at_edges(street, plan);
+    };
+    const double picture = error_by(page_policies::picture);
+    EXPECT_LT(picture, 0.7 * error_by(page_policies::resolution)) << capacity;
+    EXPECT_LT(picture, 0.8 * error_by(page_policies::edges)) << capacity;
+  }
+}
+
+TEST(Pages, picture_is_resolution_where_the_pool_suffices) {
+  Street street;
+  street.feedback.assign(street.points.size(), 0);
+  for (std::size_t i = 0; i < street.points.size(); i += 7) street.feedback[i] = kShadowEdge;
+  std::vector<std::byte> memory[2] = {std::vector<std::byte>(page_memory(4096, 1 << 14)),
+                                      std::vector<std::byte>(page_memory(4096, 1 << 14))};
+  const PagePlan resolution = street.plan(memory[0]);
+  street.options.policy = &page_policies::picture;
+  const PagePlan picture = street.plan(memory[1]);
+  ASSERT_EQ(picture.pages.size(), resolution.pages.size());
+  for (std::size_t i = 0; i < picture.pages.size(); ++i) {
+    EXPECT_EQ(picture.pages[i].level, resolution.pages[i].level);
+    EXPECT_EQ(picture.pages[i].column, resolution.pages[i].column);
+    EXPECT_EQ(picture.pages[i].row, resolution.pages[i].row);
+  }
+}
+
+TEST(Pages, picture_adds_up_no_more_weights_than_it_has_room_for) {
+  // Shadow edges at just those points that the policy takes to stand for all: more of them than its table has
+  // entries, each in a page of its own.
+  Street street;
+  street.points.clear();
+  for (int i = 0; i < 90000; ++i)
+    street.points.push_back({-19.0 + 0.1 * (i % 380), 0.0, -2.0 - 0.8 * (i / 380)});
+  street.feedback.assign(street.points.size(), 0);
+  std::size_t edges = 0;
+  for (std::size_t i = 0; i < street.points.size() && edges < 16384 + 64; ++i) {
+    if (static_cast<std::uint32_t>(i) * 0x9E3779B1u > 0xFFFFFFFFu / 5u) continue;
+    street.feedback[i] = kShadowEdge;
+    ++edges;
+  }
+  ASSERT_GT(edges, 16384u);
+  street.options.policy = &page_policies::picture;
+  street.options.page_texels = 64;
+  street.options.target_m = 1e-3;
+  street.options.capacity = 60;
+  std::vector<std::byte> memory(page_memory(60, street.points.size()));
+  const PagePlan plan = street.plan(memory);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  for (std::size_t i = 0; i < street.points.size(); i += 500)
+    EXPECT_GE(page_serving(plan, street.points[i]), 0);
+}
+
 TEST(Pages, queried_refines_by_an_octave_where_the_picture_changed) {
   Street street;
   street.options.policy = &page_policies::queried;

@@ -162,7 +162,7 @@ pub const GNOMON_POINT_OUTSIDE: i32 = 1;
 pub const GNOMON_POINT_FACES_AWAY: i32 = 2;
 /// edge-on to both
 pub const GNOMON_POINT_UNDETERMINED: i32 = 3;
-/// a shadow edge lies at the point or next to it: policy edges
+/// a shadow edge lies at the point or next to it: policies edges, picture
 pub const GNOMON_SHADOW_EDGE: i32 = 1;
 /// the last refinement changed whether the point is lit: policy queried
 pub const GNOMON_SHADOW_CHANGED: i32 = 2;
