@@ -101,7 +101,7 @@ void set_page_texels(int texels, SweepEntry& entry) {
 
 void set_page_target(double target_m, SweepEntry& entry) {
   entry.technique.page_target_m = target_m;
-  entry.pages.target_m = target_of(target_m);
+  entry.pages.target_m = target_of(target_m, entry.pages.page_texels);
 }
 
 /// Each entry once for each of the values.
@@ -258,7 +258,6 @@ std::vector<SweepEntry> page_product_of(const SweepRequest& request, std::vector
   std::vector<SweepEntry> entries(1);
   set_warp({}, entries.front());
   set_split(uniform_split(), entries.front());
-  set_page_target(request.page_target, entries.front());
   multiply(entries, request.filters, set_filter);
   multiply(entries, request.layers, set_layer);
   multiply(entries, request.fits, set_fit);
@@ -269,6 +268,7 @@ std::vector<SweepEntry> page_product_of(const SweepRequest& request, std::vector
   multiply(entries, cascades, set_cascades);
   multiply(entries, request.map_sizes, set_size);
   for (SweepEntry& entry : entries) {
+    set_page_target(request.page_target, entry);
     if (entry.pages.policy->octaves) set_fit(Fit::stable, entry);  // its levels are stable whatever the fit
     entry.pages.capacity = page_capacity(entry, light);
   }

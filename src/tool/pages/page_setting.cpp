@@ -9,12 +9,15 @@
 
 #include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/probe.hpp"
+#include "visible_surfaces.hpp"
 
 namespace gnomon::tool {
 
-double target_of(double target_m) noexcept {
-  constexpr double kFillsThePool = 0.02;
-  return target_m > 0.0 ? target_m : kFillsThePool;
+double target_of(double target_m, int page_texels) noexcept {
+  // A page of a smaller error is narrower on the screen than the points are apart, and leaves the pixels
+  // between them to the coarsest level.
+  constexpr double kPointsAcross = 2.0;
+  return target_m > 0.0 ? target_m : kPointsAcross * VisibleSurfaces::kStride / page_texels;
 }
 
 PageOptions page_options_of(const PageSetting& setting, const PlanOptions& plan) noexcept {
@@ -23,7 +26,7 @@ PageOptions page_options_of(const PageSetting& setting, const PlanOptions& plan)
   options.policy = setting.policy;
   options.page_texels = setting.page_texels;
   options.capacity = setting.capacity;
-  options.target_m = target_of(setting.target_m);
+  options.target_m = target_of(setting.target_m, setting.page_texels);
   options.fallback = true;
   return options;
 }

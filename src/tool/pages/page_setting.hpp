@@ -26,8 +26,9 @@ struct PageSetting {
 inline constexpr int kMaxPoolPages = 1 << 16;
 inline constexpr double kMaxTargetM = 1e6;
 
-/// The error for which plan_pages opens pages; 0 is so small that every plan spends its pool.
-[[nodiscard]] double target_of(double target_m) noexcept;
+/// The error for which plan_pages opens pages. 0 is the least that points read some pixels apart can be
+/// given: a plan spends its pool, but where every pixel has as fine texels before.
+[[nodiscard]] double target_of(double target_m, int page_texels) noexcept;
 /// With a fallback, so that surfaces between the points that were read keep a shadow.
 [[nodiscard]] PageOptions page_options_of(const PageSetting& setting, const PlanOptions& plan) noexcept;
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "compare/sweep.hpp"
 #include "gnomon/pages.hpp"
@@ -70,6 +71,23 @@ TEST(ComparePages, every_policy_is_measured_beside_the_map_of_as_many_texels) {
     EXPECT_NE(chart.find("pages " + std::string(policy->name)), std::string::npos) << policy->name;
   }
   EXPECT_NE(text_of(folder.path() / "summary.csv").find(",\"queried\",64,0"), std::string::npos);
+}
+
+TEST(ComparePages, a_pool_that_could_hold_a_page_for_each_point_leaves_few_holes_between_them) {
+  const TemporaryFolder folder;
+  const Finished finished =
+      run_gnomon(page_sweep(folder.path(), {"--filters", "hard", "--map-sizes", "512,2048", "--pages", "all",
+                                            "--page-sizes", "64"}));
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  std::map<std::string, double> wrong_of;  // of the smaller pool, by policy
+  int compared = 0;
+  for (const report::Row& row : report::read_rows(folder.path())) {
+    if (row.technique.map_size == 512) wrong_of[row.technique.pages] = wrong(row);
+    if (row.technique.map_size != 2048 || row.technique.pages.empty()) continue;
+    EXPECT_LT(wrong(row), 2.5 * wrong_of.at(row.technique.pages)) << row.technique.pages;
+    ++compared;
+  }
+  EXPECT_EQ(compared, static_cast<int>(all_page_policies().size()));
 }
 
 TEST(ComparePages, local_lights_are_measured_and_a_target_opens_fewer_pages_than_the_pool_holds) {
