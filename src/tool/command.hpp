@@ -46,11 +46,11 @@ struct Option {
   std::vector<std::string> names = {};              ///< words that the option takes
   bool only_names = true;                           ///< any other word is refused
   Completion completion = Completion::names;
-  char delimiter = '\0';      ///< that a list's words may have between them as well
-  int words = 0;              ///< exactly so many; 0: as the target takes
-  std::string needs = {};     ///< another option that must stand beside this one
-  std::string excludes = {};  ///< another option that must not
-  bool* given = nullptr;      ///< set to whether it stands on the command line
+  char delimiter = '\0';                   ///< that a list's words may have between them as well
+  int words = 0;                           ///< exactly so many; 0: as the target takes
+  std::string needs = {};                  ///< another option that must stand beside this one
+  std::vector<std::string> excludes = {};  ///< other options that must not
+  bool* given = nullptr;                   ///< set to whether it stands on the command line
 };
 
 /// What a command declares.

@@ -106,7 +106,8 @@ void declare_options(CLI::App& app, const Arguments& arguments) {
   for (const Option& option : arguments.options) declare_option(app, option);
   for (const Option& option : arguments.options) {
     if (!option.needs.empty()) app.get_option(option.name)->needs(app.get_option(option.needs));
-    if (!option.excludes.empty()) app.get_option(option.name)->excludes(app.get_option(option.excludes));
+    for (const std::string& other : option.excludes)
+      app.get_option(option.name)->excludes(app.get_option(other));
   }
 }
 
@@ -185,15 +186,50 @@ const Command* find_command(const Program& program, std::string_view name) {
   return at == program.commands.end() ? nullptr : &*at;
 }
 
+/// The commands that have the option.
+std::vector<std::string> commands_with(const Program& program, const std::string& option) {
+  std::vector<std::string> commands;
+  for (const Command& command : program.commands) {
+    if (command.declare == nullptr) continue;
+    Arguments arguments;
+    const std::function<int()> run = command.declare(arguments);  // the options look into what it keeps
+    const std::vector<std::string> names = option_names(arguments);
+    if (std::find(names.begin(), names.end(), option) != names.end()) commands.emplace_back(command.name);
+  }
+  return commands;
+}
+
+/// What was meant by a word that is no command: a command, an option without its dashes, or a scene to look
+/// at.
+std::string meant_by(const Program& program, const std::string& word) {
+  if (word.ends_with(".gltf") || word.ends_with(".glb") || word.starts_with("builtin:"))
+    return "; " + std::string(program.name) + " view " + one_line(word, 80) + " shows it";
+  std::vector<std::string> commands, options;
+  for (const Command& command : program.commands) {
+    commands.emplace_back(command.name);
+    if (command.declare == nullptr) continue;
+    Arguments arguments;
+    const std::function<int()> run = command.declare(arguments);
+    for (const std::string& name : option_names(arguments)) options.push_back(name.substr(2));
+  }
+  const bool is_option = std::find(options.begin(), options.end(), word) != options.end();
+  if (const std::string near = meant(word, commands); !is_option && !near.empty()) return near;
+  const std::string option = is_option ? word : nearest_name(word, options);
+  if (option.empty()) return {};
+  return "; --" + option + " is an option of " + any_of_text(commands_with(program, "--" + option));
+}
+
 [[noreturn]] void refuse_command(const Program& program, const std::string& word) {
-  std::vector<std::string> names;
-  for (const Command& command : program.commands) names.emplace_back(command.name);
   // CLI11 would only say that a command is missing.
-  throw std::runtime_error("there is no command '" + one_line(word, 80) + "'" + meant(word, names) +
+  throw std::runtime_error("there is no command '" + one_line(word, 80) + "'" + meant_by(program, word) +
                            " (see --help)");
 }
 
 int run_command(const Program& program, int argc, char** argv) {
+  if (argc <= 1) {
+    print_text(help_page(program, nullptr));
+    return 0;
+  }
   CLI::App app(std::string(program.summary), std::string(program.name));
   app.set_version_flag("--version", version_of(program));
   declare_texts(app);

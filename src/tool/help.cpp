@@ -40,7 +40,7 @@ std::string limits_of(const Option& option) {
   if (option.range) add(number_word((*option.range)[0]) + " to " + number_word((*option.range)[1]));
   if (const std::string value = default_word(option); !value.empty()) add("default: " + value);
   if (!option.needs.empty()) add("needs " + option.needs);
-  if (!option.excludes.empty()) add("not with " + option.excludes);
+  if (!option.excludes.empty()) add("not with " + any_of_text(option.excludes));
   return limits.empty() ? limits : " (" + limits + ")";
 }
 

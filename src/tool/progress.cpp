@@ -1,5 +1,4 @@
-// A progress bar for people: drawn on standard error if that is a terminal, and only once work takes over a
-// second.
+// Progress for people, on standard error: a bar on a terminal, else a line now and then.
 #include "progress.hpp"
 
 #include <unistd.h>
@@ -29,10 +28,25 @@ Progress::Progress(std::string label, long long total)
       next_draw_(begin_ + std::chrono::seconds(1)),
       on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
+/// A log of hours has some fifty lines.
+void Progress::write_line(long long done, Clock::time_point now) {
+  constexpr std::chrono::seconds kShort{10}, kOften{5};
+  const auto so_far = now - begin_;
+  const double share = static_cast<double>(done) / static_cast<double>(std::max(total_, 1LL));
+  const double seconds = std::chrono::duration<double>(so_far).count();
+  const bool is_first = next_draw_ == begin_ + std::chrono::seconds(1);
+  if (done <= 0 || total_ <= 0 ||
+      (is_first && std::chrono::duration<double>(kShort).count() * share > seconds))
+    return;
+  next_draw_ = now + std::max<Clock::duration>(kOften, so_far / 10);
+  std::fprintf(stderr, "%s: %lld of %lld%s\n", label_.c_str(), done, total_,
+               time_left(share, seconds).c_str());
+}
+
 void Progress::set(long long done) {
-  if (!on_terminal_) return;
   const auto now = Clock::now();
   if (now < next_draw_) return;
+  if (!on_terminal_) return write_line(done, now);
   next_draw_ = now + std::chrono::milliseconds(100);
   drawn_ = true;
   if (total_ <= 0) {

@@ -1,5 +1,5 @@
-// A progress bar for people: drawn on standard error if that is a terminal, and only once work takes over a
-// second.
+// Progress for people, on standard error, once work takes over a second: a bar on a terminal; else, where
+// work will take over ten seconds, a line now and then.
 #pragma once
 
 #include <chrono>
@@ -15,13 +15,15 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Sets the steps done so far; draws at most ten times a second.
+  /// Sets the steps done so far; draws at most ten times a second, and writes lines ever more rarely.
   void set(long long done);
   /// Takes the bar off the terminal, before other output is written there.
   void clear();
 
  private:
   using Clock = std::chrono::steady_clock;
+  void write_line(long long done, Clock::time_point now);
+
   std::string label_;
   long long total_;
   Clock::time_point begin_, next_draw_;

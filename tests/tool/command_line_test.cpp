@@ -32,6 +32,12 @@ TEST(CommandLine, help_lists_the_subcommands) {
   }
 }
 
+TEST(CommandLine, alone_prints_what_one_can_do) {
+  const Finished finished = run_gnomon({});
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_EQ(finished.out, run_gnomon({"--help"}).out);
+}
+
 TEST(CommandLine, version_is_one_line) {
   const Finished finished = spawn_gnomon({"--version"});
   EXPECT_EQ(finished.exit_code, 0);
@@ -41,7 +47,6 @@ TEST(CommandLine, version_is_one_line) {
 
 TEST(CommandLine, refuses_what_it_does_not_know) {
   const std::string file = case_files().front().string();
-  expect_usage_error({});
   expect_usage_error({"plant"});
   EXPECT_NE(spawn_gnomon({"plant", "--help"}).err.find("no command 'plant'"), std::string::npos);
   expect_usage_error({"plan"});
@@ -68,6 +73,17 @@ TEST(CommandLine, suggests_what_was_meant) {
   // What is like no name is no name's mistake.
   EXPECT_EQ(error_of({"elephants"}).find("did you mean"), std::string::npos);
   EXPECT_EQ(error_of({"plan", file, "--elephants"}).find("did you mean"), std::string::npos);
+}
+
+TEST(CommandLine, names_the_option_that_was_taken_for_a_command) {
+  const auto error_of = [](const char* word) { return run_gnomon({word}).err; };
+  // One letter away from the command `panes`, and an option by its full name.
+  EXPECT_NE(error_of("pages").find("--pages is an option of fly, view"), std::string::npos)
+      << error_of("pages");
+  EXPECT_NE(error_of("page").find("--pages is an option of"), std::string::npos) << error_of("page");
+  EXPECT_NE(error_of("repeat").find("--repeat is an option of plan"), std::string::npos)
+      << error_of("repeat");
+  EXPECT_NE(error_of("hall/room.glb").find("gnomon view hall/room.glb shows it"), std::string::npos);
 }
 
 TEST(CommandLine, takes_json_where_json_is_all_there_is) {

@@ -24,6 +24,7 @@
 #include "output.hpp"
 #include "picture_words.hpp"
 #include "plan_option.hpp"
+#include "progress.hpp"
 #include "scene_words.hpp"
 
 namespace gnomon::tool {
@@ -168,7 +169,8 @@ void print_row(const std::string& scene, const SweepEntry& entry, const NamedBia
   flush_output();
 }
 
-void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::string& scene) {
+void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::string& scene,
+                   Progress& progress, long long& rows) {
   Stage stage(sweep, scene);
   const FrameTruth truth = frame_truth(stage, 0, sweep.baseline);
   const std::vector<double> blocker = blocker_distances(stage, truth);
@@ -184,8 +186,10 @@ void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::st
         throw std::runtime_error(scene + ": the plan refuses " + std::string(plan.invalid_field()));
       (void)plan.draw(truth.camera, options);
       const FloatImage mask = stage.renderer().mask();
+      progress.clear();
       print_row(scene, entry, bias, report::mask_errors(channel(mask, 0), truth.lit, truth.lit),
                 contact_gap(plan, stage, truth, mask, blocker), request.json);
+      progress.set(++rows);
       if (request.out.empty()) continue;
       const std::string name = scene_stem(scene) + "_" + layer_name(entry) + "_" + std::string(bias.name);
       write_png(stage.renderer().image(), std::filesystem::path(request.out) / (name + ".png"));
@@ -204,7 +208,10 @@ int run_bias(const BiasRequest& request) {
     print_line("| scene | layer | bias | false shadow | false light | contact gap, texels |");
     print_line("|--|--|--|--:|--:|--:|");
   }
-  for (const std::string& scene : sweep.scenes) measure_scene(request, sweep, scene);
+  long long rows = 0;
+  Progress progress("gnomon bias, rows", static_cast<long long>(sweep.scenes.size() * sweep.entries.size() *
+                                                                request.biases.size()));
+  for (const std::string& scene : sweep.scenes) measure_scene(request, sweep, scene, progress, rows);
   return 0;
 }
 
@@ -262,10 +269,11 @@ std::function<int()> declare_bias(Arguments& arguments) {
                                              "--light",
                                              "--light-elevation-deg",
                                              "--light-azimuth-deg",
+                                             "--sun",
                                              "--out"};
   for (Option& option : arguments.options) {
     if (std::find(std::begin(kOfOneView), std::end(kOfOneView), option.name) != std::end(kOfOneView))
-      option.excludes = "--sweep";
+      option.excludes.emplace_back("--sweep");
   }
   return [request] {
     if (!request->sweeps) return run_bias(*request);

@@ -262,8 +262,9 @@ void sweep_biases(const BiasSweep& sweep, SweepRequest request) {
   watch_interrupts();
   const auto context = render::create_context(product.context);
   Table table(settings_of(sweep), sweep.filters);
-  Progress progress("biases", static_cast<long long>(product.scenes.size() * sweep.lights.size() *
-                                                     product.entries.size() * table.settings().size()));
+  Progress progress("gnomon bias --sweep, rows",
+                    static_cast<long long>(product.scenes.size() * sweep.lights.size() *
+                                           product.entries.size() * table.settings().size()));
   long long done = 0;
   for (const std::string& scene : product.scenes) {
     for (std::size_t i = 0; i < sweep.lights.size(); ++i) {

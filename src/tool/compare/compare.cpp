@@ -125,7 +125,7 @@ class Run {
         machine_(machine),
         known_(std::move(known)),
         file_(fs::path(sweep.out) / report::kRowsFile, std::move(lock)),
-        progress_("gnomon compare", steps_in_all()) {}
+        progress_("gnomon compare, " + std::to_string(rows_in_all()) + " rows, steps", steps_in_all()) {}
 
   void all() {
     for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
@@ -143,15 +143,21 @@ class Run {
   /// Errors of a row weigh as much as its rounds.
   [[nodiscard]] int steps_of_errors() const { return sweep_.rounds + 1; }
 
-  [[nodiscard]] long long steps_in_all() const {
-    long long steps = 0;
+  /// Sums up what `of_frame` makes of the rows of each frame.
+  template <class OfFrame>
+  [[nodiscard]] long long sum_over_frames(const OfFrame& of_frame) const {
+    long long sum = 0;
     for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
-      for (int frame = 0; frame < sweep_.frames; ++frame) {
-        const auto tasks = static_cast<long long>(tasks_of(request_, sweep_, scene, frame, known_).size());
-        if (tasks > 0) steps += (2 * tasks + 1) * steps_of_errors();
-      }
+      for (int frame = 0; frame < sweep_.frames; ++frame)
+        sum += of_frame(static_cast<long long>(tasks_of(request_, sweep_, scene, frame, known_).size()));
     }
-    return steps;
+    return sum;
+  }
+  [[nodiscard]] long long rows_in_all() const {
+    return sum_over_frames([](long long rows) { return rows; });
+  }
+  [[nodiscard]] long long steps_in_all() const {
+    return sum_over_frames([&](long long rows) { return rows > 0 ? (2 * rows + 1) * steps_of_errors() : 0; });
   }
 
   void step(long long count) {

@@ -187,7 +187,7 @@ std::function<int()> declare_stress(Arguments& arguments) {
        .help = "check these files of cases and frames as --random and --frames do, and nothing else",
        .completion = Completion::files},
       {.name = "--json", .target = &request->json, .help = "print a JSON object per row"},
-      {.name = "--csv", .target = &request->csv, .help = "print CSV", .excludes = "--json"}};
+      {.name = "--csv", .target = &request->csv, .help = "print CSV", .excludes = {"--json"}}};
   arguments.footer =
       "Exit: 0 all cases hold; 1 a case fails, or a plan contains a value that is not finite; 2 bad input.";
   return [request] { return run_stress(*request); };
