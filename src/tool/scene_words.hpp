@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
+#include "sun_words.hpp"
 
 namespace gnomon::tool {
 
@@ -28,9 +29,21 @@ inline void check_scene_word(std::string_view option, const std::string& word) {
     refuse_name(option, word, words);
 }
 
-/// A scene's name in names of files: the built-in's, or the file's without its ending.
+/// The folder that a scene's file lies in, without those above it; half of all files are called scene.gltf.
+[[nodiscard]] inline std::string scene_folder(const std::string& scene) {
+  return std::filesystem::absolute(scene).lexically_normal().parent_path().filename().string();
+}
+
+/// A scene's name for people: the built-in's word, or the file's folder and name.
+[[nodiscard]] inline std::string scene_title(const std::string& scene) {
+  if (scene.starts_with("builtin:")) return scene;
+  return scene_folder(scene) + "/" + std::filesystem::path(scene).filename().string();
+}
+
+/// A scene's name in names of files: the built-in's, or the file's folder and name without its ending.
 [[nodiscard]] inline std::string scene_stem(const std::string& scene) {
-  return std::filesystem::path(scene.substr(scene.find_last_of(":/") + 1)).stem().string();
+  if (scene.starts_with("builtin:")) return scene.substr(scene.find(':') + 1);
+  return scene_folder(scene) + "_" + std::filesystem::path(scene).stem().string();
 }
 
 [[nodiscard]] inline std::string scene_help() {
@@ -39,7 +52,7 @@ inline void check_scene_word(std::string_view option, const std::string& word) {
   return text;
 }
 
-/// --light, --light-elevation-deg, --light-azimuth-deg.
+/// --light, --light-elevation-deg, --light-azimuth-deg, --sun.
 [[nodiscard]] inline std::vector<Option> light_options(LightPlacement& light) {
   const std::vector<std::string> kinds{"sun", "spot", "point"};  // in the order of LightKind
   return {{.name = "--light",
@@ -53,7 +66,8 @@ inline void check_scene_word(std::string_view option, const std::string& word) {
           {.name = "--light-azimuth-deg",
            .target = &light.azimuth_deg,
            .help = "azimuth of the sun, degrees: 0 is -Z, 90 is +X",
-           .range = {{-360.0, 360.0}}}};
+           .range = {{-360.0, 360.0}}},
+          sun_option(light)};
 }
 
 /// --scene-light.
@@ -61,7 +75,8 @@ inline void check_scene_word(std::string_view option, const std::string& word) {
   return {.name = "--scene-light",
           .target = &name,
           .help = "light of the scene's file, by name or number, in place of --light",
-          .word = "NAME"};
+          .word = "NAME",
+          .excludes = {"--sun"}};
 }
 
 [[nodiscard]] inline Option max_triangles_option(std::uint64_t& most) {
