@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "animation_words.hpp"
 #include "command.hpp"
+#include "float_channel.hpp"
 #include "frame_plan.hpp"
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/picture.hpp"
@@ -24,6 +26,7 @@
 #include "plan_option.hpp"
 #include "progress.hpp"
 #include "report.hpp"
+#include "scene_words.hpp"
 
 namespace gnomon::tool::fly {
 namespace {
@@ -122,11 +125,29 @@ void save_filter_precision(Studio& studio, const ShadowPlan& plan, int frame, Fr
         fmt::format("{}filter, from the next frame on: {}", row.omitted.empty() ? "" : "; ", left_out);
 }
 
+/// The shadow of the frame drawn last, to lay over a picture: `over` in any program darkens by what light is
+/// missing.
+void write_shadow(const Studio& studio, int frame) {
+  const FloatImage mask = studio.renderer.mask();
+  Image shadow = render::blank_image(mask.width, mask.height, {0, 0, 0});
+  const std::vector<float> lit = channel(mask, 0);
+  for (std::size_t i = 0; i < lit.size(); ++i)
+    shadow.rgba[4 * i + 3] =
+        static_cast<std::uint8_t>(std::lround(255.0f * (1.0f - std::clamp(lit[i], 0.0f, 1.0f))));
+  const std::vector<std::uint8_t> bytes = encode_png(shadow);
+  write_file(studio.options.out / fmt::format("frame_{:04}_shadow.png", frame),
+             {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+}
+
 FrameRow draw_page_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   DrawnPages drawn = draw_with_pages(options, studio.flight, camera_of(options, studio.flight, frame),
                                      light_of(options, studio.flight.scene), studio.renderer, studio.filter);
   drawn.row.frame = frame;
+  if (options.shadow_only) {
+    write_shadow(studio, frame);
+    return drawn.row;
+  }
   if (studio.sheet.wants(frame)) studio.sheet.add(frame, drawn.lit, drawn.heat, drawn.levels);
   render::draw_heat_legend(drawn.heat);
   draw_legend_text(drawn.levels, drawn.level_text);
@@ -167,6 +188,10 @@ FrameRow draw_frame(Studio& studio, int frame) {
   row.warps = warps_text(timed.plan);
   row.omitted = omitted_text(timed.plan.omitted(), row.stats);
   save_filter_precision(studio, timed.plan, frame, row);
+  if (options.shadow_only) {
+    write_shadow(studio, frame);
+    return row;
+  }
 
   const Image lit = studio.renderer.image();
   Image heat = studio.renderer.heat_map(), tint = studio.renderer.cascade_tint();
@@ -228,15 +253,18 @@ void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
     fmt::print("pages:    {:.0f} a frame, {:.1f} % kept from earlier frames{}\n", pages.pages_per_frame,
                100.0 * pages.share_cached, moves ? "; --fit stable keeps them while the camera moves" : "");
   }
-  fmt::print("pictures: {}\nsheet:    {}\nnumbers:  {}\n", (options.out / "frame_0000_image.png").string(),
-             (options.out / "contact_sheet.png").string(), (options.out / "frames.csv").string());
+  fmt::print(
+      "pictures: {}\n",
+      (options.out / (options.shadow_only ? "frame_0000_shadow.png" : "frame_0000_image.png")).string());
+  if (!options.shadow_only) fmt::print("sheet:    {}\n", (options.out / "contact_sheet.png").string());
+  fmt::print("numbers:  {}\n", (options.out / "frames.csv").string());
 }
 
 void print_json(const Options& options, const Flight& flight, const render::ContextInfo& context,
                 const std::vector<FrameRow>& rows) {
   using Json = nlohmann::ordered_json;
   const Summary s = summary_of(rows);
-  Json json{{"scene", flight.scene.name},
+  Json json{{"scene", scene_title(options.scene)},
             {"instances", flight.scene.instances.size()},
             {"triangles", flight.scene.triangle_count()},
             {"context", context.description()},
@@ -249,7 +277,7 @@ void print_json(const Options& options, const Flight& flight, const render::Cont
               {"slowest_plan_ns", s.slowest_plan_ns},
               {"worst_m_p95", s.worst_p95},
               {"share_undersampled", s.undersampled}}},
-            {"sheet", (options.out / "contact_sheet.png").string()},
+            {"sheet", options.shadow_only ? Json() : Json((options.out / "contact_sheet.png").string())},
             {"numbers", (options.out / "frames.csv").string()},
             {"frames", frames_json(rows)}};
   if (options.pages.on()) {
@@ -358,10 +386,10 @@ std::string sheet_title(const Options& options) {
                      options.plan.fit == Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
 }
 
-void print_scene(const Flight& flight, const render::ContextInfo& context) {
+void print_scene(const Options& options, const Flight& flight, const render::ContextInfo& context) {
   constexpr double kMebi = 1024.0 * 1024.0;
   fmt::print("context:  {}\n", context.description());
-  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB\n", flight.scene.name,
+  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB\n", scene_title(options.scene),
              flight.scene.instances.size(), flight.scene.triangle_count(),
              static_cast<double>(flight.scene.bytes()) / kMebi);
 }
@@ -377,7 +405,7 @@ int fly_to_files(const Options& asked, Flight& flight) {
       throw std::runtime_error(fmt::format("--context {}: {}", to_string(options.context), error.what()));
     }
   }();
-  if (!options.json) print_scene(flight, context->info());
+  if (!options.json) print_scene(options, flight, context->info());
   if (options.pages.on()) {
     if (const std::string refusal =
             page_refusal(options.pages, options.filter, options.plan, options.light.kind);
@@ -399,7 +427,8 @@ int fly_to_files(const Options& asked, Flight& flight) {
   studio.filter = studio.renderer.prepare(options.filter,
                                           options.pages.on() ? render::Source::pages : render::Source::maps);
   const std::vector<FrameRow> rows = draw_frames(studio, context->info().software);
-  write_png(studio.sheet.sheet(sheet_title(options)), options.out / "contact_sheet.png");
+  if (!options.shadow_only)
+    write_png(studio.sheet.sheet(sheet_title(options)), options.out / "contact_sheet.png");
   if (options.json) {
     print_json(options, flight, context->info(), rows);
   } else {
@@ -412,6 +441,8 @@ int run(Options options) {
   // A folder that cannot be written is found before a scene is loaded for minutes.
   check_folder("--out", options.out);
   Flight flight = load_flight(options);
+  if (options.shadow_only && options.context == render::ContextKind::glfw)
+    throw std::runtime_error("--shadow-only: writes pictures, and --context glfw opens a window");
   if (options.pages.on() && options.context == render::ContextKind::glfw)
     throw std::runtime_error(
         "--pages: --context glfw draws maps alone; gnomon view --pages shows pages in a window");

@@ -29,6 +29,8 @@ struct Options {
   int width = 960, height = 540;
   std::filesystem::path out = "out/flythrough";
   bool json = false;  ///< files and numbers as one line of JSON, in place of text
+  /// The pictures are the shadow alone: black, its alpha the share of light that is missing.
+  bool shadow_only = false;
   render::ContextKind context = render::ContextKind::automatic;
   PlanOptions plan;
   PageSetting pages;  ///< in place of maps; off by default

@@ -75,6 +75,22 @@ TEST_F(Flythrough, draws_a_frame_under_several_warps_side_by_side) {
             100u);
 }
 
+TEST_F(Flythrough, writes_the_shadow_alone_with_alpha) {
+  const Outcome outcome = run(std::string(kOneFrame) + "--shadow-only");
+  ASSERT_EQ(outcome.code, 0) << outcome.error;
+  EXPECT_NE(outcome.out.find("frame_0000_shadow.png"), std::string::npos) << outcome.out;
+  for (const char* other : {"frame_0000_image.png", "frame_0000_heat.png", "contact_sheet.png"})
+    EXPECT_FALSE(fs::exists(out() / other)) << other;
+  const std::string png = text_of(out() / "frame_0000_shadow.png");
+  // The header's colour type: 6 is red, green, blue and alpha.
+  ASSERT_GT(png.size(), 33u);
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_EQ(png[25], 6);
+  const Outcome both = run(std::string(kOneFrame) + "--shadow-only --compare-warps none,auto");
+  EXPECT_EQ(both.code, 2);
+  EXPECT_NE(both.error.find("--compare-warps"), std::string::npos) << both.error;
+}
+
 TEST_F(Flythrough, chooses_maps_that_keep_to_an_error) {
   const auto texels_and_error = [this](double error) {
     const Outcome outcome =
