@@ -89,7 +89,8 @@ struct Document {
 struct Loading {
   std::future<std::shared_ptr<const Loaded>> scene;  ///< valid while one is
   std::string name;
-  double since = 0.0;  ///< of ImGui's seconds
+  double since = 0.0;      ///< of ImGui's seconds
+  bool announced = false;  ///< it is read, and the window says that the renderer is made ready for it
 };
 
 /// Pictures that go into files.

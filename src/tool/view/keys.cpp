@@ -254,10 +254,13 @@ void mouse(State& state, const Drawing& drawing, Display& display) {
     button.looking = !button.wiping && !button.placing;
   }
   if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) button = {};
-  if (button.placing) place_light(state.light, stage, display.pixel_ratio);
+  // The pointer's way to where it was pressed is no drag, and a hand that clicks is never quite still.
+  if (button.placing && !ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+    place_light(state.light, stage, display.pixel_ratio);
   if (button.wiping) state.wipe = std::clamp(x / area.width, 0.0, 1.0);
   constexpr double kRadiansPerUnit = 0.003;
-  if (button.looking && (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
+  if (button.looking && ImGui::IsMouseDragging(ImGuiMouseButton_Left) &&
+      (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
     turn(own_eye(state, stage), static_cast<double>(io.MouseDelta.x) * kRadiansPerUnit,
          -static_cast<double>(io.MouseDelta.y) * kRadiansPerUnit);
   if (over && io.MouseWheel != 0.0f) {

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "app.hpp"
+#include "camera_words.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/scene/load.hpp"
 #include "identifier_word.hpp"
@@ -91,6 +92,45 @@ void camera_part(Document& document, const Stage* stage, Display& display) {
   if (frozen) drawn_switches(state.drawn);
 }
 
+/// A list of what the scene's file has; nothing where it has none. `take` is called with the entry that was
+/// chosen.
+template <class Entry, class Take>
+void choose_of_file(const char* label, const std::vector<Entry>& entries, Display& display,
+                    const Take& take) {
+  if (entries.empty() || !ImGui::BeginCombo(label, "choose")) return;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable(entries[i].name.c_str())) {
+      try {
+        take(entries[i], i);
+      } catch (const std::exception& error) {
+        show_message(display, error.what(), true);
+      }
+    }
+    ImGui::PopID();
+  }
+  ImGui::EndCombo();
+}
+
+void file_cameras(App& app) {
+  if (app.drawing.stage == nullptr) return;
+  const Scene& scene = app.drawing.stage->loaded().scene;
+  choose_of_file("camera of the file", scene.cameras, app.display,
+                 [&](const SceneCamera&, std::size_t number) {
+                   CameraWords words;
+                   words.of_file = std::to_string(number);
+                   take_camera(camera_path(words, scene), app.document.state);
+                   app.document.state.motion.camera = false;
+                 });
+}
+
+void file_lights(App& app) {
+  if (app.drawing.stage == nullptr) return;
+  choose_of_file(
+      "light of the file", app.drawing.stage->loaded().scene.lights, app.display,
+      [&](const SceneLight& light, std::size_t) { app.document.state.light = light_state(light); });
+}
+
 void view_tab(App& app) {
   State& state = app.document.state;
   const Stage* const stage = app.drawing.stage.get();
@@ -112,6 +152,7 @@ void view_tab(App& app) {
   ImGui::Separator();
   playing_part(state, stage);
   camera_part(app.document, stage, app.display);
+  file_cameras(app);
   ImGui::Separator();
   ImGui::TextUnformatted("presets");
   for (const Preset& preset : presets()) {
@@ -160,6 +201,7 @@ void local_light(LightState& state, const Box& scene) {
 
 void light_tab(App& app) {
   LightState& light = app.document.state.light;
+  file_lights(app);
   int kind = static_cast<int>(light.sun.kind);
   for (const LightKind one : {LightKind::sun, LightKind::spot, LightKind::point}) {
     if (one != LightKind::sun) ImGui::SameLine();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <thread>
 
 #include "float_channel.hpp"
 #include "gnomon/casefile/casefile.hpp"
@@ -447,11 +448,16 @@ void Stage::compose(const State& state) {
   canvas_.put(b, std::max(width - b.width, 0), a.width + b.width <= width ? 0 : a.height);
 }
 
-void Stage::finish_truth() {
+void Stage::finish_truth(const std::function<void(int rows, int of)>& seen) {
   posed_.take_tracer(true);
   if (!wants_truth_) return;
   if (!truth_.is_of(camera_, light_))
     truth_.begin(posed_.tracer(), camera_, light_, renderer_.positions(), renderer_.normals());
+  while (seen && !truth_.done()) {
+    constexpr std::chrono::milliseconds kPause{20};
+    seen(truth_.rows(), camera_.height);
+    std::this_thread::sleep_for(kPause);
+  }
   truth_.finish();
 }
 

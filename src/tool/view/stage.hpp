@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -73,7 +74,7 @@ class Stage {
   /// Returns what is wrong with the state, in which case the last picture stays, or an empty text.
   std::string draw(const State& state, int width, int height, bool settled);
   /// Waits for the exact shadows of the last picture, if it shows any; draw() then shows all of them.
-  void finish_truth();
+  void finish_truth(const std::function<void(int rows, int of)>& seen = {});
   /// From the next draw on, misclassified pixels are counted in every view, as far as exact shadows are
   /// there.
   void count_errors(bool wanted) noexcept { counts_errors_ = wanted; }

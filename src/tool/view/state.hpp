@@ -15,6 +15,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/scene.hpp"
 #include "page_setting.hpp"
 
 namespace gnomon::tool::view {
@@ -129,6 +130,10 @@ struct State {
 [[nodiscard]] Light light_of(const LightState& light, const Box& scene) noexcept;
 /// The state whose light this is, over any scene.
 [[nodiscard]] LightState light_state(const Light& light) noexcept;
+/// The same of a light of the scene's file. Throws std::runtime_error for a sun that shines from below.
+[[nodiscard]] LightState light_state(const SceneLight& light);
+/// The eye, its field of view and its depths become those of the path's first key.
+void take_camera(const CameraPath& path, State& state) noexcept;
 /// Turns the sun by `seconds` of its motion; its azimuth stays in [-180, 180) degrees.
 void turn_sun(State& state, double seconds) noexcept;
 /// The path that the state flies along: the recorded one, or the scene's, with the state's field of view and

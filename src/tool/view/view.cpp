@@ -20,6 +20,7 @@
 #include "output.hpp"
 #include "picture_words.hpp"
 #include "plan_option.hpp"
+#include "progress.hpp"
 #include "scene_words.hpp"
 #include "stage.hpp"
 
@@ -79,28 +80,20 @@ void resolve_camera(const CameraWords& words, State& state) {
   if (words.eye) state.eye = CameraKey{*words.eye, *words.target};
 }
 
-/// A light of the file as the state has lights.
-LightState light_of_file(const SceneLight& of_file) {
-  const LightState state = light_state(of_file.light);
-  constexpr double kLeastDegrees = 0.1;
-  if (state.sun.kind == LightKind::sun && state.sun.elevation_deg < kLeastDegrees)
-    throw std::runtime_error("--scene-light " + of_file.name + ": shines from below the horizon");
-  return state;
-}
-
 /// Camera and light of the scene's file, for which it is read.
 void resolve_scene_words(const Request& request, State& state) {
   const std::string& camera = request.camera.of_file;
   if (camera.empty() && request.light_of_file.empty()) return;
   const Scene scene = load_scene(state.scene, limits_of_triangles(request.options.max_triangles));
-  if (!request.light_of_file.empty())
-    state.light = light_of_file(named_in(scene.lights, request.light_of_file, "--scene-light", "light"));
-  if (camera.empty()) return;
-  const CameraPath path = camera_path(request.camera, scene);
-  state.eye = path.keys.front();
-  state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
-  state.near_depth = path.near_depth;
-  state.far_depth = path.far_depth;
+  if (!request.light_of_file.empty()) {
+    const SceneLight& light = named_in(scene.lights, request.light_of_file, "--scene-light", "light");
+    try {
+      state.light = light_state(light);
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error(std::string("--scene-light ") + error.what());
+    }
+  }
+  if (!camera.empty()) take_camera(camera_path(request.camera, scene), state);
 }
 
 void resolve_playing(const Request& request, Playing& playing) {
@@ -327,8 +320,10 @@ int draw_to_file(const Options& options) {
     if (!refusal.empty()) throw std::runtime_error(refusal);
   };
   draw();
-  if (stage.truth_progress()) {
-    stage.finish_truth();
+  if (const auto progress = stage.truth_progress()) {
+    Progress bar("gnomon view, rows of exact rays", (*progress)[1]);
+    stage.finish_truth([&](int rows, int) { bar.set(rows); });
+    bar.clear();
     draw();
   }
   const Image image = stage.canvas().image();

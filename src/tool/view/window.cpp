@@ -10,6 +10,7 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "app.hpp"
 #include "command.hpp"
@@ -19,6 +20,7 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "output.hpp"
+#include "progress.hpp"
 #include "scene_words.hpp"
 
 namespace gnomon::tool::view {
@@ -101,6 +103,8 @@ class Widgets {
 void take_loaded(App& app) {
   std::future<std::shared_ptr<const Loaded>>& scene = app.drawing.loading.scene;
   if (!scene.valid() || scene.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  // What follows takes seconds in which no frame is drawn: this one says what for.
+  if (!std::exchange(app.drawing.loading.announced, true)) return;
   State& state = app.document.state;
   std::unique_ptr<Stage>& shown = app.drawing.stage;
   try {
@@ -397,7 +401,9 @@ void run_tour(App& app, Loop& loop) {
   app.display.pointer = glm::dvec2(-1.0);
   settle();
   std::size_t pictures = 0;
+  Progress progress("gnomon view --tour", static_cast<long long>(tour_stops().size()));
   for (const TourStop& stop : tour_stops()) {
+    progress.set(static_cast<long long>(pictures));
     if (stop.needs_results && !app.display.results) continue;
     stop.set(app);
     settle();
@@ -416,6 +422,7 @@ void run_tour(App& app, Loop& loop) {
     glfwSwapBuffers(app.window);
     ++pictures;
   }
+  progress.clear();
   fmt::print("{} pictures in {}\n", pictures, app.options.tour.string());
 }
 

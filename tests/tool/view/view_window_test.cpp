@@ -295,6 +295,22 @@ TEST_F(ViewWindow, records_a_path_and_flies_along_it) {
   EXPECT_EQ(different_pixels(middle, read("path.png")), 0u);
 }
 
+TEST_F(ViewWindow, stays_where_it_is_at_a_click_and_turns_by_a_drag) {
+  open(kSmall);
+  const Image begin = picture();
+  // The way into the picture and the click are one frame's.
+  stop();
+  drive({"mousemove", "--window", window_, "510", "100", "click", "1"});
+  go_on();
+  EXPECT_EQ(different_pixels(begin, picture()), 0u);
+  drive({"mousedown", "1"});
+  EXPECT_EQ(different_pixels(begin, picture()), 0u);
+  drive({"mousemove", "--window", window_, "570", "120"});
+  (void)picture_other_than(begin);
+  drive({"mouseup", "1"});
+  EXPECT_EQ(close(), 0);
+}
+
 TEST_F(ViewWindow, takes_keys_in_their_order_however_long_a_frame_takes) {
   open(kSmall);
   const Image begin = picture();
