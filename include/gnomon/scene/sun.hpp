@@ -40,12 +40,12 @@ struct SunMoment {
   double zone_s = 0.0;  ///< local time minus UTC, seconds
   Place place;
 };
-/// "2026-06-21T15:00+02:00@52.5,13.4": date and time with seconds or without, its zone (Z or hours and
-/// minutes), latitude, longitude, and altitude in metres where a third number follows. Years 1900 to 2100.
-/// Throws std::runtime_error that names the part that is wrong.
+/// Reads text such as "2026-06-21T15:00+02:00@52.5,13.4". The date is of 1900 to 2100, the time has seconds
+/// or not, the zone is Z or hours and minutes. Latitude and longitude follow, then perhaps an altitude in
+/// metres. Throws std::runtime_error that names the part that is wrong.
 [[nodiscard]] SunMoment read_sun_moment(std::string_view text);
-/// "2026-06-21@52.5,13.4": the moment of local mean solar midnight with which the day begins there; a zone
-/// may follow the date, and is then that of `zone_s`, which is the mean solar one otherwise. Throws as above.
+/// Reads text such as "2026-06-21@52.5,13.4": local mean solar midnight, with which that day begins there. A
+/// zone may follow the date; `zone_s` is then its offset, else that of mean solar time. Throws as above.
 [[nodiscard]] SunMoment read_sun_day(std::string_view text);
 
 /// When the sun is above an elevation within the 24 hours from `begin_s` on, to the second.
