@@ -123,8 +123,8 @@ TEST(Sun, thin_air_refracts_less) {
 }
 
 TEST(Sun, rises_and_sets_in_berlin_to_the_minute) {
-  // 04:43:05 and 21:33:18 in summer time, by pvlib's sun_rise_set_transit_spa: the disc's upper edge at the horizon, half
-  // a disc above its middle.
+  // 04:43:05 and 21:33:18 in summer time, by pvlib's sun_rise_set_transit_spa: the disc's upper edge at the
+  // horizon, half a disc above its middle.
   const SunMoment day = read_sun_day("2026-06-21+02:00@52.52,13.405");
   const SunHours hours = sun_hours(day.unix_s, day.place, -0.2667);
   const double midnight_s = read_sun_moment("2026-06-21T00:00+02:00@52.52,13.405").unix_s;

@@ -153,9 +153,8 @@ std::vector<Option> flight_options(Request& request) {
        .completion = Completion::folders},
       {.name = "--shadow-only",
        .target = &options.shadow_only,
-       .help =
-           "write the shadow alone, to composite over a picture: black, with the share of light that is "
-           "missing as alpha",
+       .help = "write the shadow alone, to composite over a picture: black, with the share of light that is "
+               "missing as alpha",
        .excludes = {"--compare-warps"}},
       {.name = "--json",
        .target = &options.json,

@@ -177,7 +177,8 @@ void draw_hours_legend(Image& image, const Sunlight& day, const std::string& tit
   const int step = std::max(1, static_cast<int>(std::ceil(day.sun_hours / kFields)));
   std::vector<std::string> texts;
   std::vector<render::LegendEntry> entries;
-  for (int hours = 0; hours + 0.5 * step < day.sun_hours; hours += step) texts.push_back(fmt::format("{} h", hours));
+  for (int hours = 0; hours + 0.5 * step < day.sun_hours; hours += step)
+    texts.push_back(fmt::format("{} h", hours));
   texts.push_back(fmt::format("{:.1f} h: all day", day.sun_hours));
   for (std::size_t i = 0; i < texts.size(); ++i) {
     const double hours = i + 1 < texts.size() ? static_cast<double>(i) * step : day.sun_hours;

@@ -25,7 +25,8 @@ ImVec2 in_window(const Area& area, double pixel_ratio, const glm::dvec2& pixel) 
 std::string waiting_text(const Drawing& drawing, const Settings& settings) {
   const Loading& loading = drawing.loading;
   if (loading.scene.valid() && loading.announced)
-    return fmt::format("compiling shaders for {} ... {:.1f} s", loading.name, ImGui::GetTime() - loading.since);
+    return fmt::format("compiling shaders for {} ... {:.1f} s", loading.name,
+                       ImGui::GetTime() - loading.since);
   if (loading.scene.valid())
     return fmt::format("loading {} ... {:.1f} s", loading.name, ImGui::GetTime() - loading.since);
   if (drawing.compiling)

@@ -15,7 +15,8 @@
 namespace gnomon::test {
 namespace {
 
-/// A ground of 2 km; half a metre over it, west of x = -10, a roof; along x = 20 a wall of 1 km from north to south.
+/// A ground of 2 km; half a metre over it, west of x = -10, a roof; along x = 20 a wall of 1 km from north to
+/// south.
 std::string yard() {
   TestGltf gltf;
   const auto face = [&](const std::vector<float>& corners) {
