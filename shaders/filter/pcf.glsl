@@ -1,6 +1,6 @@
 // The average of comparisons over a kernel (Reeves, Salesin, Cook 1987): the hardware's bilinear 2 x 2, a box of any
 // sides, or a disc of samples turned from pixel to pixel. Each depth is compared with the receiver's plane at its texel,
-// so that the kernel's width needs no bias (Isidoro 2006).
+// so that the kernel's width needs no bias (Isidoro 2006). The kernel covers at least at.pixel.
 #include "filter/option/pcf.glsl"
 #include "library/compare.glsl"
 #include "library/disc.glsl"
@@ -33,8 +33,10 @@ float compare_box(sampler2DArray depth_map, ShadowLookup at) {
 float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_map, ShadowLookup at,
                         ShadowOptions options) {
   const float kBox = 0.0, kVogel = 1.0, kPoisson = 2.0;
+  const float kBoxOfDisc = 0.8660254;  // half side of the box over radius of the disc, of equal variance
   float pattern = options.value[option_pattern];
   int samples = int(options.value[option_samples]);
+  at.box = max(at.box, at.pixel);
   if (pattern == kBox) {
     if (max(at.box.x, at.box.y) > 0.5) return compare_box(depth_map, at);
     // One depth for four texels, each up to a texel away: off the plane by as much, for the bias covers half a texel of
@@ -42,6 +44,10 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
     float off_plane = abs(at.depth_gradient.x) + abs(at.depth_gradient.y);
     return texture(compare_map, vec4(at.texel / at.layer_size, at.layer, texel_of_depth(min(at.depth - off_plane, 1.0))));
   }
+  // Stretched along the map's axes to the pixel where it is narrower.
+  vec2 reach = vec2(length(vec2(at.disc[0].x, at.disc[1].x)), length(vec2(at.disc[0].y, at.disc[1].y)));
+  vec2 stretch = max(vec2(1.0), at.pixel / (kBoxOfDisc * max(reach, 1e-20)));
+  at.disc = mat2(at.disc[0] * stretch, at.disc[1] * stretch);
   vec2 direction = vogel_first(options.value[option_rotate] > 0.5 ? at.rotation : 0.0);
   float sum = 0.0;
   for (int i = 0; i < samples; ++i) {

@@ -14,6 +14,7 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
   const float kBaseOfBox = 1.4142136;  // half base of the tent over half side of the box, of equal variance
   // In texels, one bilinear comparison (half base 1) at each of 2 radius + 1 places, weighted 1, 2, .. radius + 1, .. 1.
   vec2 half_base = max(options.value[option_in_world] > 0.5 ? kBaseOfBox * at.box : at.box + 0.5, 1.0);
+  half_base = max(half_base, kBaseOfBox * at.pixel);
   vec2 own = floor(at.texel), part = at.texel - own;
   ivec2 first = ivec2(floor(part - half_base + 0.5)), last = ivec2(ceil(part + half_base - 0.5)) - 1;
   vec2 half_step = 0.5 * at.depth_gradient;

@@ -17,6 +17,7 @@ struct ShadowLookup {
   vec2 box;               // half sides of the kernel as a box, texels
   mat2 disc;              // the kernel as an ellipse: texels from the unit disc
   mat2 footprint;         // axes of what is left to average after the stored texels' own blur, texels
+  vec2 pixel;             // half sides of the box that has the pixel's variance, texels; 0: kernels take no part of it
   mat2 texels_per_world;  // texels per world unit along two axes across the light
   vec4 ray;               // see distance_to_depth
   float light_distance;   // world units; 0: parallel light

@@ -42,6 +42,15 @@ mat2 ellipse_of_sum(mat2 a, mat2 b, float less) {
               vec2(-axis.y, axis.x) * sqrt(max(middle - apart - less, 0.0)));
 }
 
+// Half sides of the box that has the variance of a pixel: ShadowLookup::pixel, for kernels that cover it. At most
+// gnomon::render::kMaxRadiusTexels, which is also the result where the surface is seen from its edge.
+vec2 pixel_box(mat2 texels_per_pixel) {
+  const float kWidest = 32.0;
+  vec2 x = vec2(texels_per_pixel[0].x, texels_per_pixel[1].x), y = vec2(texels_per_pixel[0].y, texels_per_pixel[1].y);
+  vec2 half_sides = 0.5 * vec2(length(x), length(y));
+  return vec2(half_sides.x < kWidest ? half_sides.x : kWidest, half_sides.y < kWidest ? half_sides.y : kWidest);
+}
+
 // Kernel of the question. A disc of radius r and a box of half side r sqrt(3) / 2 have the same variance, and so has a
 // trilinear read over a footprint of r texels; what the stored texels' own blur did of it is taken off.
 void set_kernel(inout ShadowLookup at, ShadowMap map, ShadowKernel kernel, mat2 texels_per_pixel) {
@@ -125,6 +134,7 @@ ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSu
   at.box = vec2(0.5);
   at.disc = mat2(0.5);
   at.footprint = mat2(0.0);
+  at.pixel = vec2(0.0);
   at.rotation = 0.0;
   return at;
 }

@@ -4,29 +4,15 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "light_ray.hpp"
 #include "sampling.hpp"
+#include "surface_rays.hpp"
 
 namespace gnomon::trace {
 namespace {
-
-/// The ray from the receiver's plane to the light, along the line through `from`. It starts where that line
-/// leaves the plane, so that the rounding of the picture's position does not matter, and beyond what
-/// the engine may see too early of triangles in the same plane.
-Ray ray_off_plane(const SurfacePoint& point, const glm::dvec3& from, const glm::dvec3& direction,
-                  double distance, double error) noexcept {
-  Ray ray;
-  const double cosine = std::max(glm::dot(point.normal, direction), kGrazingCosine);
-  const double height = point.above + glm::dot(point.normal, from - point.position);
-  const double begin = (error - height) / cosine;
-  ray.origin = from + begin * direction;
-  ray.direction = direction;
-  ray.end = distance - begin;
-  ray.except = point.triangle;
-  return ray;
-}
 
 struct Frame {
   glm::dvec3 x, y;
@@ -40,10 +26,18 @@ Frame frame_across(const glm::dvec3& direction) noexcept {
   return {x, glm::cross(direction, x)};
 }
 
-/// Distance that rays may go before they leave everything: what the engine's error is stated for.
-double error_of(const Tracer& tracer, const Light& light, const SurfacePoint& point) noexcept {
-  if (std::holds_alternative<DirectionalLight>(light)) return tracer.error_world();
-  return tracer.error_world(light_ray(light, point.position).distance);
+/// How the column and the row of a map's texels change over the world, texels per world unit.
+struct TexelSlopes {
+  glm::dvec3 column, row;
+};
+TexelSlopes texel_slopes(const ShadowMap& map, const glm::dvec3& point) noexcept {
+  const glm::dmat4& m = map.clip_from_world;
+  const glm::dvec4 clip = m * glm::dvec4(point, 1.0);
+  const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
+  const auto row = [&m](int i) { return glm::dvec3(m[0][i], m[1][i], m[2][i]); };
+  const glm::dvec3 over_x = row(0) - ndc.x * row(3), over_y = row(1) - ndc.y * row(3);
+  const glm::dmat2 d = map.texels().place(ndc).texel_from_ndc / clip.w;
+  return {over_x * d[0][0] + over_y * d[1][0], over_x * d[0][1] + over_y * d[1][1]};
 }
 
 /// Mean answer of `samples` rays per pixel; `make` gives ray `sample` of a point.
@@ -110,20 +104,19 @@ HardReference hard_reference(const Tracer& tracer, const SurfacePoints& points, 
 }
 
 KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point, double radius_texels) noexcept {
-  const glm::dmat4& m = map.clip_from_world;
-  const glm::dvec4 clip = m * glm::dvec4(point, 1.0);
-  const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
-  const auto row = [&m](int i) { return glm::dvec3(m[0][i], m[1][i], m[2][i]); };
-  const glm::dvec3 over_x = row(0) - ndc.x * row(3), over_y = row(1) - ndc.y * row(3);
-  const glm::dmat2 d = map.texels().place(ndc).texel_from_ndc / clip.w;
-  const glm::dvec3 texel_x = over_x * d[0][0] + over_y * d[1][0];
-  const glm::dvec3 texel_y = over_x * d[0][1] + over_y * d[1][1];
+  const auto [texel_x, texel_y] = texel_slopes(map, point);
   const glm::dvec3 light = glm::normalize(glm::dvec3(map.light_world) - map.light_world.w * point);
   // Vectors across the light whose change of one texel coordinate is 1 and of the other 0.
   const glm::dvec3 x = glm::cross(texel_y, light), y = glm::cross(light, texel_x);
   const double determinant = glm::dot(texel_x, x);
   if (!(std::abs(determinant) > 0.0) || !std::isfinite(determinant)) return {};
   return {x * (radius_texels / determinant), y * (radius_texels / determinant)};
+}
+
+glm::dvec2 pixel_in_texels(const ShadowMap& map, const glm::dvec3& point, const KernelAxes& facet) noexcept {
+  const auto [texel_x, texel_y] = texel_slopes(map, point);
+  return {std::hypot(glm::dot(texel_x, facet.x), glm::dot(texel_x, facet.y)),
+          std::hypot(glm::dot(texel_y, facet.x), glm::dot(texel_y, facet.y))};
 }
 
 KernelAxes world_axes(const Light& light, const glm::dvec3& point, double radius) noexcept {

@@ -6,25 +6,9 @@
 
 #include "light_ray.hpp"
 #include "sampling.hpp"
+#include "surface_rays.hpp"
 
 namespace gnomon::trace {
-namespace {
-
-Ray eye_ray(const Camera& camera, const CameraAxes& axes, double column_share, double row_share) noexcept {
-  const double x = camera.left + (camera.right - camera.left) * column_share,
-               y = camera.top + (camera.bottom - camera.top) * row_share;
-  const glm::dvec3 image = axes.right * x + axes.up * y;
-  // Per unit of view depth, so that t is the depth.
-  Ray ray;
-  ray.origin = camera.orthographic ? camera.position + image : camera.position;
-  ray.direction = camera.orthographic ? axes.forward : axes.forward + image;
-  ray.begin = camera.near_depth;
-  ray.end = camera.far_depth;
-  return ray;
-}
-
-}  // namespace
-
 std::vector<glm::dvec3> seen_points(const Tracer& tracer, const Camera& camera, const Light& light,
                                     int columns, int rows) {
   struct Seen {

@@ -51,6 +51,33 @@ TEST(Errors, acne_and_leaks_below_one_half_count) {
   EXPECT_DOUBLE_EQ(errors.too_dark, 2.0 / 8.0);
 }
 
+TEST(Errors, pixel_error_is_the_mean_distance_to_the_light_over_pixels) {
+  const Mask mask{1, 0, 0.5f, 0.25f, 1}, light{0.75f, 0, 1, 0.5f, -1};
+  const std::vector<std::uint8_t> several{0, 0, 1, 0, 1};
+  const PixelErrors errors = pixel_errors(mask, light, several);
+  EXPECT_EQ(errors.pixels, 4u);
+  EXPECT_EQ(errors.several, 1u);
+  EXPECT_DOUBLE_EQ(errors.error, (0.25 + 0.5 + 0.25) / 4.0);
+  EXPECT_DOUBLE_EQ(errors.one_surface, (0.25 + 0.25) / 3.0);
+  EXPECT_EQ(pixel_errors({}, {}, {}).error, 0.0);
+}
+
+TEST(Errors, hard_comparison_of_a_fine_fence_has_no_misclassified_pixel_and_half_a_pixel_error) {
+  const Mask hard{1, 0, 1, 0}, half(4, 0.5f);
+  EXPECT_EQ(mask_errors(hard, hard, Mask(4, -1.0f)).false_lit, 0.0);
+  EXPECT_DOUBLE_EQ(pixel_errors(hard, half, std::vector<std::uint8_t>(4)).error, 0.5);
+  EXPECT_EQ(pixel_errors(half, half, std::vector<std::uint8_t>(4)).error, 0.0);
+}
+
+TEST(Errors, changes_beyond_those_of_the_light_twinkle) {
+  const Mask before{0, 0, 0, 0.5f, 1, 1}, after{1, 1, 0.25f, 0.8f, 0, 0};
+  const Mask light_before{0.5f, 0.1f, 0, 0.5f, -1, 0.5f}, light_after{0.5f, 0.9f, 0, 0.5f, 0, -1};
+  // The first and the fourth: the second follows the light, the third changes by a quarter, two have none.
+  EXPECT_DOUBLE_EQ(twinkling(before, after, light_before, light_after), 2.0 / 4.0);
+  EXPECT_EQ(twinkling(light_before, light_after, light_before, light_after), 0.0);
+  EXPECT_EQ(twinkling({}, {}, {}, {}), 0.0);
+}
+
 TEST(Errors, the_truth_is_uniform_where_all_neighbours_have_it) {
   const Mask truth{1,  1, 1, 1, 0,  //
                    1,  1, 1, 1, 1,  //

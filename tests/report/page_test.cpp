@@ -10,9 +10,11 @@
 #include "gnomon/report/csv.hpp"
 #include "gnomon/report/page.hpp"
 #include "gnomon/report/rows_file.hpp"
+#include "ranks.hpp"
 #include "sample_rows.hpp"
 #include "summary.hpp"
 #include "text.hpp"
+#include "views.hpp"
 #include "waterfall.hpp"
 
 namespace gnomon::report {
@@ -164,6 +166,109 @@ TEST(Summary, takes_the_worst_frame_where_frames_bound_and_keeps_them_in_order) 
   EXPECT_EQ(values[measure_index("m_p95")], 5.0);
   EXPECT_EQ(values[measure_index("map_mib")], 3.0);
   EXPECT_EQ(summary.rows_of[1], (std::vector<std::size_t>{1, 2, 0}));
+}
+
+TEST(Summary, frames_weigh_by_their_pixels_and_scenes_of_a_few_pixels_decide_nothing) {
+  std::vector<Row> rows(3, sample_row());
+  rows[0].scene = rows[1].scene = "large";
+  rows[2].scene = "small";
+  const double errors[] = {0.01, 0.31, 0.9};
+  const std::uint64_t pixels[] = {29'000, 1000, 143};
+  for (std::size_t i = 0; i < 3; ++i) {
+    rows[i].frame = static_cast<int>(i);
+    rows[i].errors.pixels = pixels[i];
+    rows[i].errors.false_lit = errors[i];
+    rows[i].errors.false_shadow = 0.0;
+  }
+  const std::size_t wrong = measure_index("wrong");
+  const Summary summary = summarize(rows);
+  EXPECT_DOUBLE_EQ(summary.cells[1][0].values[wrong], 0.02);
+  EXPECT_DOUBLE_EQ(summary.cells[2][0].values[wrong], 0.9);
+  EXPECT_DOUBLE_EQ(summary.cells[0][0].values[wrong], 0.02);
+  rows.erase(rows.begin(), rows.begin() + 2);
+  EXPECT_DOUBLE_EQ(summarize(rows).cells[0][0].values[wrong], 0.9) << "where no scene has more";
+}
+
+/// Ten views, in which "wide" has the smaller pixel error and "hard" fewer misclassified pixels, but for one.
+std::vector<Row> rows_that_disagree() {
+  std::vector<Row> rows;
+  for (int frame = 0; frame < 10; ++frame) {
+    for (const char* filter : {"hard", "wide"}) {
+      Row row = sample_row(0);
+      row.frame = frame;
+      row.frames = 10;
+      row.technique.filter = filter;
+      const bool wide = row.technique.filter == "wide";
+      row.errors.false_lit = (wide ? 0.03 : 0.01) + 0.0001 * frame;
+      row.errors.false_shadow = 0.0;
+      row.pixel.emplace();
+      row.pixel->pixels = 50'000;
+      row.pixel->error = (wide == (frame != 3) ? 0.02 : 0.05) + 0.001 * frame;
+      row.pixel->twinkle = wide ? 0.0 : 0.048;
+      row.times.total_ms = {wide ? 12.0 : 8.0, 7.0, 13.0};
+      row.times.baseline_ms = 8.0;
+      row.times.baseline_again_ms = frame % 2 == 0 ? 8.4 : 7.8;
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+TEST(Views, give_medians_with_intervals_and_count_the_views_that_say_so) {
+  std::vector<Row> rows = rows_that_disagree();
+  const Summary summary = summarize(rows);
+  const ViewTable table = view_table(rows, summary);
+  EXPECT_EQ(table.views, 10u);
+  EXPECT_EQ(table.error, "pixel_error");
+  const SignTest test = table.compared("pixel_error", 1, 0);
+  EXPECT_EQ(test.less, 9u);
+  EXPECT_EQ(test.more, 1u);
+  EXPECT_NEAR(test.chance, 2.0 * 11.0 / 1024.0, 1e-12);
+  EXPECT_EQ(table.compared("wrong", 1, 0).less, 0u);
+  const Estimate wide = *table.over("pixel_error", 1);
+  EXPECT_NEAR(wide.median, 0.0255, 1e-12);
+  EXPECT_LT(wide.low, wide.median);
+  EXPECT_GT(wide.high, wide.median);
+  EXPECT_NEAR(table.noise(), 8.4 / 8.0, 1e-12);
+  EXPECT_EQ(table.over("ratio", 1)->median, 1.5);
+  // A view with few pixels is named and not counted.
+  for (Row& row : rows)
+    if (row.frame == 4) row.errors.pixels = 143;
+  const ViewTable fewer = view_table(rows, summary);
+  EXPECT_EQ(fewer.views, 9u);
+  EXPECT_EQ(fewer.dropped, 1u);
+}
+
+TEST(Views, go_by_misclassified_pixels_where_no_row_has_a_pixel_error) {
+  std::vector<Row> rows = rows_that_disagree();
+  for (Row& row : rows) row.pixel.reset();
+  EXPECT_EQ(view_table(rows, summarize(rows)).error, "wrong");
+}
+
+TEST(Ranks, show_where_two_errors_disagree) {
+  const std::vector<Row> rows = rows_that_disagree();
+  const Summary summary = summarize(rows);
+  EXPECT_EQ(places_by(summary, 1, "wrong"), (std::vector<std::size_t>{1, 2}));
+  EXPECT_EQ(places_by(summary, 1, "pixel_error"), (std::vector<std::size_t>{2, 1}));
+  EXPECT_EQ(places_by(summary, 1, "flips"), (std::vector<std::size_t>{1, 1}));
+  EXPECT_DOUBLE_EQ(rank_agreement(summary, 1, "wrong", "pixel_error"), -1.0);
+  const std::string tables = front_tables(summary);
+  EXPECT_EQ(count(tables, "misclassified pixels and pixel error: -1;"), 2u) << tables;
+  EXPECT_EQ(count(tables, "front by pixel error"), 2u);
+}
+
+TEST(Page, has_views_ranks_and_their_files) {
+  const Reported reported(rows_that_disagree());
+  for (const char* text : {"Over views", "In how many views", "<b>9 of 10</b>", "Places by each error",
+                           "less than a factor of 1.05", "Which error answers which question"})
+    EXPECT_NE(reported.page.find(text), std::string::npos) << text;
+  const std::string csv = text_of(reported.folder.path() / "views.csv");
+  EXPECT_EQ(count(csv, "\n"), 3u);
+  EXPECT_NE(csv.find(",views,wrong,wrong_low,wrong_high,pixel_error"), std::string::npos) << csv;
+  EXPECT_TRUE(fs::exists(reported.folder.path() / "charts/views.svg"));
+  // Rows of an earlier version have none of it.
+  const Reported old(sample_rows(2, 3));
+  EXPECT_EQ(old.page.find("Places by each error"), std::string::npos);
 }
 
 TEST(Summary, a_technique_that_misses_a_scene_is_not_among_all_scenes) {

@@ -49,6 +49,22 @@ TEST(Rows, what_a_plan_was_expected_to_misclassify_comes_back_where_it_is_known)
   EXPECT_EQ(row_from_json(to_json_line(row), "here").expected_wrong, row.expected_wrong);
 }
 
+TEST(Rows, errors_of_whole_pixels_come_back_and_other_numbers_of_rays_are_another_measurement) {
+  Row row = sample_row();
+  EXPECT_FALSE(row_from_json(to_json_line(row), "here").pixel);
+  row.pixel = PixelErrors{50'000, 1200, 0.0321, 0.03, 0.048, 0.0475};
+  row.times.baseline_again_ms = 6.25;
+  const Row back = row_from_json(to_json_line(row), "here");
+  EXPECT_EQ(back.pixel, row.pixel);
+  EXPECT_EQ(back.times.baseline_again_ms, 6.25);
+  EXPECT_EQ(back.pixel_samples, kPixelSamples);
+  EXPECT_EQ(row.key().find("pixel_samples"), std::string::npos);
+  Row finer = row;
+  finer.pixel_samples = 64;
+  EXPECT_NE(finer.key(), row.key());
+  EXPECT_EQ(row_from_json(to_json_line(finer), "here").key(), finer.key());
+}
+
 TEST(Rows, a_moving_scene_comes_back_with_its_animation_and_instant) {
   Row row = sample_row();
   EXPECT_EQ(to_json_line(row).find("\"animation"), std::string::npos);

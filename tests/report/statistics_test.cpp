@@ -48,6 +48,20 @@ TEST(Statistics, estimates_are_the_same_in_every_run) {
   EXPECT_LT(estimate(values).low, estimate(values).high);
 }
 
+TEST(Statistics, a_sign_test_is_that_of_a_fair_coin) {
+  EXPECT_EQ(sign_test({}, {}), (SignTest{0, 0, 1.0}));
+  const std::vector<double> low{1, 2, 3, 4, 5, 7}, high{2, 3, 4, 5, 6, 7};
+  const SignTest five = sign_test(low, high);
+  EXPECT_EQ(five.less, 5u);
+  EXPECT_EQ(five.more, 0u);
+  EXPECT_NEAR(five.chance, 2.0 / 32.0, 1e-12);
+  EXPECT_NEAR(sign_test(high, low).chance, 2.0 / 32.0, 1e-12);
+  // One of five: 2 (1 + 5) / 32.
+  const std::vector<double> mixed{3, 2, 3, 4, 5, std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_NEAR(sign_test(mixed, high).chance, 12.0 / 32.0, 1e-12);
+  EXPECT_EQ(sign_test(low, low).chance, 1.0);
+}
+
 TEST(Statistics, geometric_mean_by_hand) {
   EXPECT_DOUBLE_EQ(geometric_mean(std::vector<double>{2, 8}, 1.0), 4.0);
   EXPECT_DOUBLE_EQ(geometric_mean(std::vector<double>{0, 4}, 0.25), 1.0);

@@ -92,17 +92,20 @@ struct FilterLookup {
   std::function<glm::dvec2(int x, int y)> silhouette;
   /// Largest depth within the kernel of the stored texels, for filters that need it.
   double depth_max = 1.0;
-  glm::dvec2 position{0.0};          ///< in texels: the centre of texel i is at i + 0.5
-  double depth = 0.0;                ///< of the receiver, 0 near the light .. 1, bias already taken off
-  glm::dvec2 depth_gradient{0.0};    ///< change of the receiver plane's depth per texel along x and y
-  glm::dvec2 box{0.5};               ///< half sides of the kernel as a box, texels
-  glm::dmat2 disc{1.0};              ///< the kernel as an ellipse: texels from the unit disc
+  glm::dvec2 position{0.0};        ///< in texels: the centre of texel i is at i + 0.5
+  double depth = 0.0;              ///< of the receiver, 0 near the light .. 1, bias already taken off
+  glm::dvec2 depth_gradient{0.0};  ///< change of the receiver plane's depth per texel along x and y
+  glm::dvec2 box{0.5};             ///< half sides of the kernel as a box, texels
+  glm::dmat2 disc{1.0};            ///< the kernel as an ellipse: texels from the unit disc
   glm::dmat2 texels_per_world{1.0};  ///< texels per world unit across the light, along two axes of a basis
   /// Distance from the receiver towards the light to where the map's depth is d. It is (x - d y) / (z - d w)
   /// world units, with this vector's x, y, z, w. Exact along the receiver's own ray.
   glm::dvec4 ray{0.0, 1.0, 1.0, 0.0};
   double light_distance = 0.0;  ///< to the light, world units; 0: parallel light
   double rotation = 0.0;        ///< radians: turns sample patterns, random from pixel to pixel
+  /// Half sides of the box that has the pixel's variance, texels: kernels with option `footprint` are at
+  /// least as wide. 0: the option is off.
+  glm::dvec2 pixel{0.0};
 };
 
 /// Kind of texels that a filter reads.
@@ -219,6 +222,8 @@ struct Filter {
 [[nodiscard]] FilterSettings default_settings(const Filter& filter) noexcept;
 /// How these settings' texels are read: FilterInfo::reads, or filtered where they may be averaged.
 [[nodiscard]] MapRead reads_of(const FilterSettings& settings) noexcept;
+/// True if the kernel is at least as wide as the pixel on the map: option `footprint` of pcf and pcf_tent.
+[[nodiscard]] bool covers_pixel(const FilterSettings& settings) noexcept;
 /// The options for one map: a fall-off in world units becomes an exponent or offset, a share of the map's
 /// depth range. Settings as they are where the filter has no such option. Renderers do this for each map.
 [[nodiscard]] FilterSettings settings_for_map(const FilterSettings& settings,

@@ -41,6 +41,31 @@ struct MaskErrors {
                                   std::span<const float> truth_before,
                                   std::span<const float> truth_after) noexcept;
 
+/// A mask against the light over whole pixels (trace::pixel_reference). Shares in [0,1]; 0 where there is
+/// nothing to count.
+struct PixelErrors {
+  std::uint64_t pixels = 0;      ///< that have a reference
+  std::uint64_t several = 0;     ///< of them: pixels that show several surfaces
+  double error = 0.0;            ///< |mask - reference|, mean over all of them
+  double one_surface = 0.0;      ///< the same over pixels that show one surface
+  double twinkle = 0.0;          ///< twinkling() of the pixels of the picture
+  double twinkle_tracked = 0.0;  ///< twinkling() of points that the eye follows from frame to frame
+  /// Equal in all members.
+  bool operator==(const PixelErrors&) const = default;
+};
+/// Sets all but the two of twinkling. All spans are equally long. `light`: 1 .. 0, negative
+/// where there is no reference. `several`: 1 where a pixel shows several surfaces.
+[[nodiscard]] PixelErrors pixel_errors(std::span<const float> mask, std::span<const float> light,
+                                       std::span<const std::uint8_t> several) noexcept;
+
+/// Share of pixels that change from one frame to the next by over a quarter more than the light over the
+/// pixel does. `light_before` and `light_after` are that light, negative where there is none: such pixels do
+/// not count. Zero for a mask that is the light itself. A quarter is beyond the sampling error of sixteen
+/// rays.
+[[nodiscard]] double twinkling(std::span<const float> before, std::span<const float> after,
+                               std::span<const float> light_before,
+                               std::span<const float> light_after) noexcept;
+
 /// The aliasing error over the pixels of a frame.
 struct PixelAliasing {
   double p50 = 0.0, p95 = 0.0, max = 0.0;  ///< of m, screen pixels per texel

@@ -13,6 +13,7 @@ namespace gnomon::report {
 ///   charts/NAME.svg     the charts,
 ///   summary.csv         a line per scene and technique,
 ///   frames.csv          a line per row,
+///   views.csv           medians over views with their intervals, a line per technique,
 ///   fronts.md           what no other technique beats on each scene, as tables.
 /// Files that are there already are replaced, each as a whole. A folder with none of them is refused.
 /// Warnings as read_rows. Throws ReportError. Returns the path of the page.

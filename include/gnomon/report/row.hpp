@@ -52,7 +52,10 @@ struct Times {
   Estimate plan_ns, depth_ms, prefilter_ms, shade_ms;  ///< nanoseconds, then milliseconds
   Estimate total_ms;                                   ///< of the four
   double baseline_ms = 0.0;  ///< median total of hard x no warp x one map in the same rounds
-  int rounds = 0;            ///< measured, warm-up not counted
+  /// The same once more in those rounds, as if it were another technique: what the clock's noise is. 0: not
+  /// measured.
+  double baseline_again_ms = 0.0;
+  int rounds = 0;  ///< measured, warm-up not counted
   /// total over baseline; 0 where there is none.
   [[nodiscard]] double ratio() const noexcept {
     return baseline_ms > 0.0 ? total_ms.median / baseline_ms : 0.0;
@@ -87,6 +90,9 @@ struct Pictures {
   std::string image, truth, mask, difference, heat;  ///< PNG files
 };
 
+/// Rays of a pixel where none are asked for.
+inline constexpr int kPixelSamples = 16;
+
 /// One technique on one frame of one scene.
 struct Row {
   std::uint64_t index = 0;  ///< place in the whole sweep, the same in every shard
@@ -95,8 +101,8 @@ struct Row {
   int frame = 0, frames = 1, width = 0, height = 0;  ///< index, count, pixels
   std::string light;  ///< "sun", "spot" or "point", in the direction of elevation and azimuth
   double light_elevation_deg = 0.0, light_azimuth_deg = 0.0;  ///< degrees
-  /// Where the camera was placed by hand: its eye, or its path's file and a number for what that holds. Empty:
-  /// the scene's own flight.
+  /// Where the camera was placed by hand: its eye, or its path's file and a number for what that holds.
+  /// Empty: the scene's own flight.
   std::string camera = {};
   std::string animation = {};     ///< of the scene that plays, by name or number; empty: the scene is at rest
   double animation_time_s = 0.0;  ///< of the frame's pose, seconds
@@ -104,9 +110,11 @@ struct Row {
   std::string plan_status;        ///< name of the PlanStatus
   std::string truth;              ///< what mean_error is against: "filtered", "area", "hard" or "facet"
   MaskErrors errors;              ///< against the truth
-  std::uint64_t undecided_pixels = 0;  ///< undecided by the geometry, not counted in `errors`
-  double flips = 0.0;                  ///< excess flips per pixel over one step of a 60 Hz viewer
-  PixelAliasing aliasing;              ///< over the pixels of the frame
+  std::uint64_t undecided_pixels = 0;     ///< undecided by the geometry, not counted in `errors`
+  double flips = 0.0;                     ///< excess flips per pixel over one step of a 60 Hz viewer
+  int pixel_samples = kPixelSamples;      ///< rays of each pixel for `pixel`; 0: not measured
+  std::optional<PixelErrors> pixel = {};  ///< against whole pixels; rows of earlier versions have none
+  PixelAliasing aliasing;                 ///< over the pixels of the frame
   /// Misclassified share of the pixels compared that the plan's maps were expected to have under hard
   /// comparison, without drawing them (expected_error); none of pages.
   std::optional<double> expected_wrong = {};

@@ -28,6 +28,17 @@ struct Estimate {
 /// number where one list has fewer than two different values.
 [[nodiscard]] double rank_correlation(std::span<const double> a, std::span<const double> b);
 
+/// How two lists compare, pair by pair.
+struct SignTest {
+  std::size_t less = 0, more = 0;  ///< pairs whose first value is the smaller one, and the larger one
+  double chance = 1.0;             ///< that a fair coin is as uneven, on either side; 1 where no pair differs
+  /// Equal in all members.
+  bool operator==(const SignTest&) const = default;
+};
+/// The exact sign test. The lists are equally long; equal pairs, and those with a value that is not finite,
+/// do not count.
+[[nodiscard]] SignTest sign_test(std::span<const double> first, std::span<const double> second);
+
 /// A choice: both are to be made small.
 struct Choice {
   double cost = 0.0, error = 0.0;  ///< any units

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <vector>
 
@@ -81,6 +82,10 @@ struct KernelAxes {
 /// of that radius in the map. Zero where the map is singular.
 [[nodiscard]] KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point,
                                     double radius_texels) noexcept;
+/// Half sides, in texels of the map, of the box that has the variance of a pixel with these half sides on the
+/// surface (facet_axes): FilterLookup::pixel, without a bound.
+[[nodiscard]] glm::dvec2 pixel_in_texels(const ShadowMap& map, const glm::dvec3& point,
+                                         const KernelAxes& facet) noexcept;
 /// Two axes of this length across the light at a point, world units.
 [[nodiscard]] KernelAxes world_axes(const Light& light, const glm::dvec3& point, double radius) noexcept;
 
@@ -105,5 +110,22 @@ inline constexpr int kSoftSamples = 16;
 /// the tangent of the angular radius for a directional one (the sun's is 0.00465).
 [[nodiscard]] SoftReference area_reference(const Tracer& tracer, const SurfacePoints& points,
                                            const Light& light, double radius, int samples = kSoftSamples);
+
+/// The light on the surfaces that a pixel shows, over the whole pixel.
+struct PixelReference {
+  int width = 0, height = 0;  ///< pixels
+  /// Share of the light, 1 lit .. 0 in shadow; -1 where the pixel's centre shows no surface that faces the
+  /// light. Width x height, rows top to bottom.
+  std::vector<float> pixels;
+  /// 1 where the samples meet more than the surface at the centre: an edge, a fold, or the sky.
+  std::vector<std::uint8_t> several;
+};
+/// `samples` rays from the eye through each pixel, and one to the light from each surface that they meet.
+/// The samples are stratified, the same in every run. Surfaces that face away from the light, lie beyond it
+/// or are grazed by it have no part in the share: no shadow map decides there. Pixels of several surfaces
+/// have the mean of all that the light can reach. `points` are those of surface_points through `camera`.
+[[nodiscard]] PixelReference pixel_reference(const Tracer& tracer, const Camera& camera,
+                                             const SurfacePoints& points, const Light& light,
+                                             int samples = kSoftSamples);
 
 }  // namespace gnomon::trace

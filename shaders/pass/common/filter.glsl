@@ -8,7 +8,7 @@ const int kTapVectors = 9;  // weights of the taps 0..35 to either side
 const int kOptionVectors = 4;
 
 layout(std140, binding = 1) uniform Filter {
-  vec4 kernel;      // radius; 1: in world units; 1: averages over the pixel; rounding of the format
+  vec4 kernel;      // radius; 1: in world units; 1: averages over the pixel, 2: kernels cover it; rounding of the format
   vec4 sums;        // steps of a summed-area table per 1; 1: the format stores only 0..1; reads along a long footprint; 1: no receiver plane
   ivec4 reach[GNOMON_MAX_MAPS];                     // per map: taps to either side of the middle one
   vec4 options[GNOMON_MAX_MAPS * kOptionVectors];  // per map: FilterSettings::option

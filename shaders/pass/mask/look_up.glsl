@@ -52,8 +52,12 @@ float visibility_through(int index, Surface s, float noise) {
   ShadowMap map = shadow_map(index);
   ShadowLookup at = shadow_lookup(map, layer_of_map(index), by.layer.xy, ShadowSurface(s.position, s.normal, by.light_place), by.bias);
   if (filtering.sums.w > 0.5) at.depth_gradient = vec2(0.0);
-  ShadowKernel kernel = ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, filtering.kernel.z > 0.5);
-  set_kernel(at, map, kernel, kernel.minify ? texels_per_pixel(map, s) : mat2(0.0));
+  bool covers_pixel = filtering.kernel.z > 1.5;
+  ShadowKernel kernel =
+      ShadowKernel(filtering.kernel.x, filtering.kernel.y > 0.5, filtering.kernel.z > 0.5 && !covers_pixel);
+  mat2 pixel = filtering.kernel.z > 0.5 ? texels_per_pixel(map, s) : mat2(0.0);
+  set_kernel(at, map, kernel, pixel);
+  if (covers_pixel) at.pixel = pixel_box(pixel);
   at.rotation = 6.2831853 * noise;
   return visibility(at, map, options_of_map(index));
 }

@@ -115,6 +115,10 @@ MapRead reads_of(const FilterSettings& settings) noexcept {
   return averages ? MapRead::filtered : filter.info.reads;
 }
 
+bool covers_pixel(const FilterSettings& settings) noexcept {
+  return settings.value("footprint") > 0.5;
+}
+
 FilterSettings settings_for_map(const FilterSettings& settings, const MapDepths& depths) noexcept {
   FilterSettings own = settings;
   if (settings.filter->hooks.fit_map != nullptr) settings.filter->hooks.fit_map(own, depths);

@@ -135,7 +135,10 @@ void set_depth_curves(const DepthCurves& curves, FilterBlock& block) noexcept {
 FilterBlock filter_block(const FilterSettings& settings, const BlurSides& sides) noexcept {
   FilterBlock block{};
   block.kernel = glm::vec4(glm::dvec4(settings.radius, settings.unit == KernelUnit::world ? 1.0 : 0.0,
-                                      settings.mipmap ? 1.0 : 0.0, rounding_of(settings.format)));
+                                      settings.mipmap          ? 1.0
+                                      : covers_pixel(settings) ? 2.0
+                                                               : 0.0,
+                                      rounding_of(settings.format)));
   block.sums.y = is_unsigned_unit(settings.format) ? 1.0f : 0.0f;
   block.sums.x = static_cast<float>(sum_steps(settings));
   block.sums.z = static_cast<float>(settings.anisotropy);

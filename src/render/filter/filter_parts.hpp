@@ -47,6 +47,9 @@ namespace gnomon::render {
 
 /// Options that several filters have. Lists name them as option::NAME: cmake/option_names.cmake reads that.
 namespace option {
+/// For the filters whose kernel can cover the pixel.
+inline constexpr FilterOption footprint{
+    "footprint", 0, 0, 1, "1 widens the kernel to the pixel's footprint, at most 32 texels to each side"};
 /// For the filters of a light with a size.
 inline constexpr FilterOption angle_deg{
     "angle_deg", 2.0, 0.01, 60.0, "apparent diameter of a directional light, degrees; the sun has 0.53"};

@@ -12,6 +12,7 @@ constexpr FilterOption kOptions[] = {
     {"pattern", 0, 0, 2, "kernel: 0 box of texels, 1 Vogel disc, 2 Poisson disc"},
     {"samples", 16, 1, 64, "samples of a disc, four comparisons each"},
     {"rotate", 1, 0, 1, "1 rotates the disc per pixel: noise instead of banding; 0 does not"},
+    option::footprint,
 };
 constexpr OptionPlaces kPlace(kOptions);
 
@@ -40,8 +41,20 @@ double compare_hardware(FilterLookup lookup) {
   return compare_2x2(lookup, lookup.position);
 }
 
-double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSettings& settings) {
+/// The kernel no narrower than the pixel; a disc is stretched along the map's axes.
+FilterLookup covering_pixel(FilterLookup lookup) {
+  constexpr double kBoxOfDisc = 0.86602540378443865;
+  lookup.box = glm::max(lookup.box, lookup.pixel);
+  glm::dmat2& disc = lookup.disc;
+  const glm::dvec2 reach(std::hypot(disc[0].x, disc[1].x), std::hypot(disc[0].y, disc[1].y));
+  const glm::dvec2 stretch = glm::max(glm::dvec2(1.0), lookup.pixel / (kBoxOfDisc * glm::max(reach, 1e-20)));
+  disc = glm::dmat2(disc[0] * stretch, disc[1] * stretch);
+  return lookup;
+}
+
+double visibility(const StoredTexel&, const FilterLookup& asked, const FilterSettings& settings) {
   constexpr double kBox = 0.0, kPoisson = 2.0;
+  const FilterLookup lookup = covering_pixel(asked);
   const double pattern = settings.option[kPlace("pattern")];
   const int samples = static_cast<int>(settings.option[kPlace("samples")]);
   if (pattern == kBox) {

@@ -10,14 +10,18 @@
 namespace gnomon::render {
 namespace {
 
+constexpr FilterOption kOptions[] = {
+    option::footprint,
+};
 /// `in_world`: 1 where the radius is in world units. Set by settle(), for a lookup has no unit.
 constexpr std::string_view kOwnOptions[] = {"in_world"};
-constexpr OptionPlaces kPlace({}, kOwnOptions);
+constexpr OptionPlaces kPlace(kOptions, kOwnOptions);
 
 glm::dvec2 half_base(const FilterLookup& lookup, const FilterSettings& settings) noexcept {
   const glm::dvec2 base =
       settings.option[kPlace("in_world")] > 0.5 ? std::numbers::sqrt2 * lookup.box : lookup.box + 0.5;
-  return {std::max(base.x, 1.0), std::max(base.y, 1.0)};
+  // Of equal variance with the pixel where the kernel is narrower.
+  return glm::max(glm::max(base, 1.0), std::numbers::sqrt2 * lookup.pixel);
 }
 
 /// The first texel whose centre lies within `half_base` of the point, and the one behind the last.
@@ -46,6 +50,7 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
 }
 
 void settle(FilterSettings& settings) noexcept {
+  settings.option[kPlace("footprint")] = std::round(settings.option[kPlace("footprint")]);
   settings.option[kPlace("in_world")] = settings.unit == KernelUnit::world ? 1.0 : 0.0;
 }
 
@@ -59,6 +64,7 @@ const Filter filters::pcf_tent{
             .source = "Castaño 2013, Shadow mapping summary (The Witness), after Reeves, Salesin, Cook 1987",
             .reads = MapRead::depth,
             .bias_class = FilterClass::wide_kernel,
+            .options = kOptions,
             .own_options = kOwnOptions,
             .lookup_reach_texels = 1.5,
             .settle = settle,

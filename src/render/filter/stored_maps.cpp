@@ -130,6 +130,12 @@ Program make_pool_program(const FilterSettings& settings, std::size_t which) {
     throw RenderError("filter " + std::string(info.name) +
                       ": contacts take a pass over the pixels of one plan, and a pool of lights has none");
   }
+  if (covers_pixel(settings)) {
+    throw RenderError(
+        "filter " + std::string(info.name) +
+        ": kernels as wide as a pixel read beyond the border of a map, and a pool of lights has "
+        "other maps there");
+  }
   if (info.reads != MapRead::depth || info.draws_silhouettes) {
     throw RenderError("filter " + std::string(info.name) + ": " +
                       (info.draws_silhouettes ? "reads outlines beside" : "stores texels of") +

@@ -26,6 +26,7 @@ std::string_view page_filter_refusal(const FilterSettings& settings) noexcept {
   if (filter.info.draws_silhouettes) return "reads outlines beside whole maps, which pages do not have";
   if (filter.info.reads == MapRead::summed) return "sums up the texels of whole maps, which no page holds";
   if (settings.mipmap) return "mip-maps, which pages do not have";
+  if (covers_pixel(settings)) return "kernels as wide as a pixel, wider than the border of a page";
   if (settings.contacts) return "contacts by a pass over the pixels, which frames of pages do not have";
   if (filter.hooks.needs_depth_max != nullptr && filter.hooks.needs_depth_max(settings))
     return "reads the largest depths of whole maps, which no page holds";

@@ -10,6 +10,7 @@
 #include "page_files.hpp"
 #include "sections.hpp"
 #include "text.hpp"
+#include "views.hpp"
 
 namespace gnomon::report {
 namespace {
@@ -56,6 +57,8 @@ void write_charts(const PageInput& input) {
   write_stability_charts(input.stability, folder);
   if (const std::optional<Chart> expected = expected_chart(input.rows))
     write_text(folder / "expected.svg", expected->standalone());
+  if (const ViewTable views = view_table(input.rows, input.summary); views.views > 1)
+    write_text(folder / "views.svg", view_chart(views, input.summary).standalone());
   for (std::size_t scene = 0; scene < input.summary.scenes.size(); ++scene) {
     const std::string name = scene == 0 ? "all" : "scene" + std::to_string(scene - 1);
     write_text(folder / ("error_time_" + name + ".svg"), error_time_chart(input.summary, scene).standalone());
@@ -101,11 +104,13 @@ std::string summary_csv(const Summary& summary) {
 }
 
 std::string frames_csv(const std::vector<Row>& rows) {
-  std::string out = std::string("scene,frame,") + kTechniqueHead + measure_head();
+  std::string head = measure_head();
+  head.insert(head.size() - 1, ",camera");
+  std::string out = std::string("scene,frame,") + kTechniqueHead + head;
   for (const Row& row : rows) {
     out += csv_field(row.scene) + "," + std::to_string(row.frame) + "," + technique_columns(row.technique);
     for (const Measure& measure : measures()) out += "," + exact_number(measure.of(row));
-    out += "\n";
+    out += "," + csv_field(row.camera) + "\n";
   }
   return out;
 }
@@ -152,6 +157,7 @@ std::filesystem::path write_report(const std::filesystem::path& folder, std::vec
   write_charts(input);
   write_text(folder / "summary.csv", summary_csv(input.summary));
   write_text(folder / "fronts.md", front_tables(input.summary));
+  write_text(folder / "views.csv", views_csv(input.rows, input.summary, kTechniqueHead, technique_columns));
   write_text(folder / "frames.csv", frames_csv(input.rows));
   write_text(folder / "report.html", whole_page(input));
   return folder / "report.html";

@@ -9,8 +9,10 @@
 #include "charts.hpp"
 #include "expected.hpp"
 #include "file.hpp"
+#include "ranks.hpp"
 #include "stability.hpp"
 #include "text.hpp"
+#include "views.hpp"
 #include "waterfall.hpp"
 
 namespace gnomon::report {
@@ -171,7 +173,8 @@ std::string section_error_time(const PageInput& input) {
            time_to_error_chart(summary, scene).embedded("time-to-error-" + number) +
            matched_error_table(summary, scene) + "</div>\n";
   }
-  return out + expected_part(input.rows) + "</section>\n";
+  return out + view_part(input.rows, summary) + rank_part(summary, input.start_scene) +
+         expected_part(input.rows) + "</section>\n";
 }
 
 std::string section_summary(const PageInput& input) {
@@ -279,6 +282,14 @@ std::string section_method(const PageInput& input) {
       "they are the <b>misclassified</b> pixels. <b>Mean error</b> compares with the exact shadow averaged "
       "over the filter's own kernel (for area-light filters: with the true penumbra). <b>Leaking</b> is the "
       "mean light where no part of the kernel is lit, <b>darkening</b> the mean shadow where all of it is. "
+      "<b>Pixel error</b> compares with the light over the whole pixel: several rays from the eye through it "
+      "(--pixel-samples), and one to the light from each surface that they meet and that the light can "
+      "reach. "
+      "Pixels of several surfaces have the mean of them; <b>of one surface</b> omits those. <b>Flicker</b> "
+      "counts pixels whose shadow at the same point flips from one frame to the next although the exact one "
+      "does not. <b>Twinkling</b> counts pixels of the picture that change by over a quarter more than the "
+      "light over them does, while the camera moves as for a viewer at 60 Hz; <b>followed</b> compares the "
+      "pixels that show the same point before and after. "
       "<b>Too light</b> and <b>too dark</b> count the pixels there that are off by over a tenth: leaks and "
       "acne, also below one half. "
       "<b>m</b> is the aliasing error, screen pixels per shadow map texel; above 1 the map is "

@@ -3,12 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
+#include <set>
 
 #include "text.hpp"
 
 namespace gnomon::report {
 namespace {
 
+constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMicrosecondsPerNanosecond = 1e-3, kMebibytesPerByte = 1.0 / (1 << 20);
 
 template <class Values, class Value>
@@ -20,19 +24,26 @@ std::size_t place_of(Values& known, const Value& value) {
 }
 
 double gathered(const Measure& measure, const std::vector<const Row*>& rows) {
-  double sum = 0.0, largest = 0.0;
+  double sum = 0.0, largest = 0.0, weights = 0.0;
   for (const Row* row : rows) {
     const double value = measure.of(*row);
-    sum += value;
+    if (std::isnan(value)) continue;  // measured before there was such a number
+    // A frame that shows hardly a pixel must not decide.
+    const double weight =
+        measure.is_cost ? 1.0 : static_cast<double>(std::max<std::uint64_t>(row->errors.pixels, 1));
+    sum += weight * value;
+    weights += weight;
     largest = std::max(largest, value);
   }
-  return measure.frames == Measure::Gather::largest ? largest : sum / static_cast<double>(rows.size());
+  if (weights == 0.0) return kNotMeasured;
+  return measure.frames == Measure::Gather::largest ? largest : sum / weights;
 }
 
 Cell cell_of(const std::vector<const Row*>& rows) {
   Cell cell;
   if (rows.empty()) return cell;
   cell.measured = true;
+  for (const Row* row : rows) cell.pixels = std::max(cell.pixels, row->errors.pixels);
   for (const Measure& measure : measures()) cell.values.push_back(gathered(measure, rows));
   return cell;
 }
@@ -44,10 +55,16 @@ Cell all_scenes(const std::vector<std::vector<Cell>>& cells, std::size_t techniq
     if (!cells[scene][technique].measured) return all;
   }
   all.measured = true;
+  std::vector<std::size_t> counted;
+  for (std::size_t scene = 1; scene < cells.size(); ++scene) {
+    all.pixels = std::max(all.pixels, cells[scene][technique].pixels);
+    if (cells[scene][technique].pixels >= kFewestPixels) counted.push_back(scene);
+  }
+  if (counted.empty())
+    for (std::size_t scene = 1; scene < cells.size(); ++scene) counted.push_back(scene);
   for (std::size_t m = 0; m < measures().size(); ++m) {
     std::vector<double> values;
-    for (std::size_t scene = 1; scene < cells.size(); ++scene)
-      values.push_back(cells[scene][technique].values[m]);
+    for (const std::size_t scene : counted) values.push_back(cells[scene][technique].values[m]);
     constexpr double kLeastCost = 1e-6;  // of a pass that did not run
     double sum = 0.0;
     for (const double value : values) sum += value / static_cast<double>(values.size());
@@ -55,6 +72,21 @@ Cell all_scenes(const std::vector<std::vector<Cell>>& cells, std::size_t techniq
   }
   return all;
 }
+
+/// What a row's scene goes by: with its camera where the rows have several of the scene.
+class SceneNames {
+ public:
+  explicit SceneNames(const std::vector<Row>& rows) {
+    for (const Row& row : rows) cameras_[row.scene].insert(row.camera);
+  }
+  [[nodiscard]] std::string of(const Row& row) const {
+    return row.camera.empty() || cameras_.at(row.scene).size() < 2 ? row.scene
+                                                                   : row.scene + ", " + row.camera;
+  }
+
+ private:
+  std::map<std::string, std::set<std::string>> cameras_;
+};
 
 }  // namespace
 
@@ -67,6 +99,10 @@ const std::vector<Measure>& measures() {
        [](const Row& r) { return r.errors.false_lit; }},
       {"false_shadow", "false shadow", "%", "false shadow", false,
        [](const Row& r) { return r.errors.false_shadow; }},
+      {"pixel_error", "pixel error against the light over whole pixels", "%", "pixel error", false,
+       [](const Row& r) { return r.pixel ? r.pixel->error : kNotMeasured; }},
+      {"pixel_error_one_surface", "pixel error where a pixel shows one surface", "%", "of one surface", false,
+       [](const Row& r) { return r.pixel ? r.pixel->one_surface : kNotMeasured; }},
       {"mean_error", "mean error against the ideal filter", "%", "mean error", false,
        [](const Row& r) { return r.errors.mean_error; }},
       {"leaking", "light leaking deep in shadow", "%", "leaking", false,
@@ -79,6 +115,10 @@ const std::vector<Measure>& measures() {
        [](const Row& r) { return r.errors.too_light; }},
       {"flips", "flicker (excess flips per pixel and frame)", "%", "flicker", false,
        [](const Row& r) { return r.flips; }},
+      {"twinkle", "twinkling (pixels that change more than the light over them)", "%", "twinkling", false,
+       [](const Row& r) { return r.pixel ? r.pixel->twinkle : kNotMeasured; }},
+      {"twinkle_tracked", "twinkling of points that the eye follows", "%", "followed", false,
+       [](const Row& r) { return r.pixel ? r.pixel->twinkle_tracked : kNotMeasured; }},
       {"m_p95", "aliasing error m, 95th percentile", "pixels per texel", "m p95", false,
        [](const Row& r) { return r.aliasing.p95; }, Gather::largest},
       {"share_undersampled", "share of pixels with m > 1", "%", "m > 1", false,
@@ -131,6 +171,7 @@ std::vector<std::size_t> Summary::front(std::size_t scene, std::size_t error, st
 
 Summary summarize(const std::vector<Row>& rows) {
   Summary s;
+  const SceneNames names(rows);
   s.scenes.emplace_back("all scenes");
   std::vector<std::vector<std::vector<const Row*>>> gathered_rows;  // [scene - 1][technique]
   for (const Row& row : rows) {
@@ -141,10 +182,10 @@ Summary summarize(const std::vector<Row>& rows) {
   s.rows_of.emplace_back();
   for (std::size_t i = 0; i < rows.size(); ++i) {
     // The first entry is all of them together, whatever a scene may be called.
-    const auto known = std::find(s.scenes.begin() + 1, s.scenes.end(), rows[i].scene);
+    const auto known = std::find(s.scenes.begin() + 1, s.scenes.end(), names.of(rows[i]));
     const auto scene = static_cast<std::size_t>(known - s.scenes.begin());
     if (known == s.scenes.end()) {
-      s.scenes.push_back(rows[i].scene);
+      s.scenes.push_back(names.of(rows[i]));
       s.rows_of.emplace_back();
       gathered_rows.emplace_back(s.techniques.size());
     }

@@ -31,9 +31,13 @@ struct Measure {
 /// Index into measures(). The key must be one of them.
 [[nodiscard]] std::size_t measure_index(std::string_view key);
 
+/// Views and scenes of fewer evaluated pixels decide nothing: one pixel would be a thousandth of all.
+inline constexpr std::uint64_t kFewestPixels = 1000;
+
 /// One technique on one scene.
 struct Cell {
   bool measured = false;
+  std::uint64_t pixels = 0;    ///< evaluated, of the frame that has the most
   std::vector<double> values;  ///< by measure
 };
 
@@ -48,8 +52,9 @@ struct Summary {
   [[nodiscard]] std::vector<std::size_t> front(std::size_t scene, std::size_t error, std::size_t cost) const;
 };
 
-/// Of all scenes together, errors are their mean and costs their geometric mean, over techniques that were
-/// measured on all of them.
+/// Errors of a scene are means over all of its evaluated pixels. Of all scenes together, errors are the mean
+/// of the scenes and costs their geometric mean, over techniques that were measured on all of them. Scenes
+/// with fewer than kFewestPixels have no part in it, unless all are such.
 [[nodiscard]] Summary summarize(const std::vector<Row>& rows);
 
 /// How a technique lays its maps, for people: its name without the filter.

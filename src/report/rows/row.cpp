@@ -36,15 +36,22 @@ Json to_json(const Technique& t) {
   return json;
 }
 
+Json pixel_json(const PixelErrors& p) {
+  return {{"pixels", p.pixels},           {"several", p.several}, {"error", p.error},
+          {"one_surface", p.one_surface}, {"twinkle", p.twinkle}, {"twinkle_tracked", p.twinkle_tracked}};
+}
+
 Json errors_json(const Row& row) {
   const MaskErrors& e = row.errors;
-  return {{"pixels", e.pixels},       {"undecided_pixels", row.undecided_pixels},
-          {"false_lit", e.false_lit}, {"false_shadow", e.false_shadow},
-          {"truth", row.truth},       {"mean_error", e.mean_error},
-          {"leaking", e.leaking},     {"deep_pixels", e.deep_pixels},
-          {"darkening", e.darkening}, {"open_pixels", e.open_pixels},
-          {"too_dark", e.too_dark},   {"too_light", e.too_light},
-          {"flips", row.flips}};
+  Json json{{"pixels", e.pixels},       {"undecided_pixels", row.undecided_pixels},
+            {"false_lit", e.false_lit}, {"false_shadow", e.false_shadow},
+            {"truth", row.truth},       {"mean_error", e.mean_error},
+            {"leaking", e.leaking},     {"deep_pixels", e.deep_pixels},
+            {"darkening", e.darkening}, {"open_pixels", e.open_pixels},
+            {"too_dark", e.too_dark},   {"too_light", e.too_light},
+            {"flips", row.flips}};
+  if (row.pixel) json["pixel"] = pixel_json(*row.pixel);
+  return json;
 }
 
 Json aliasing_json(const PixelAliasing& a) {
@@ -70,6 +77,7 @@ Json times_json(const Times& t) {
           {"shade_ms", to_json(t.shade_ms)},
           {"total_ms", to_json(t.total_ms)},
           {"baseline_ms", t.baseline_ms},
+          {"baseline_again_ms", t.baseline_again_ms},
           {"rounds", t.rounds}};
 }
 
@@ -109,9 +117,10 @@ Json settings_json(const Row& row) {
             {"light_elevation_deg", row.light_elevation_deg},
             {"light_azimuth_deg", row.light_azimuth_deg},
             {"technique", to_json(row.technique)}};
-  // Rows keep the key that they had before cameras could be placed and scenes could move.
+  // Rows keep the key that they had before cameras could be placed, scenes could move and pixels had rays.
   if (!row.camera.empty()) json["camera"] = row.camera;
   if (!row.animation.empty()) json["animation"] = row.animation;
+  if (row.pixel_samples != kPixelSamples) json["pixel_samples"] = row.pixel_samples;
   return json;
 }
 
@@ -199,6 +208,16 @@ void errors_from(const Json& json, Row& row) {
   if (json.contains("too_dark")) e.too_dark = real_from(json.at("too_dark"));
   if (json.contains("too_light")) e.too_light = real_from(json.at("too_light"));
   row.flips = real_from(json.at("flips"));
+  // Rows of an earlier version, and of sweeps without it, have none.
+  if (!json.contains("pixel")) return;
+  const Json& p = json.at("pixel");
+  PixelErrors& pixel = row.pixel.emplace();
+  get_whole(p.at("pixels"), pixel.pixels);
+  get_whole(p.at("several"), pixel.several);
+  pixel.error = real_from(p.at("error"));
+  pixel.one_surface = real_from(p.at("one_surface"));
+  pixel.twinkle = real_from(p.at("twinkle"));
+  pixel.twinkle_tracked = real_from(p.at("twinkle_tracked"));
 }
 
 void results_from(const Json& json, Row& row) {
@@ -255,6 +274,8 @@ void measurement_from(const Json& json, Row& row) {
   times.shade_ms = estimate_from(t.at("shade_ms"));
   times.total_ms = estimate_from(t.at("total_ms"));
   times.baseline_ms = real_from(t.at("baseline_ms"));
+  // Rows of an earlier version have none.
+  if (t.contains("baseline_again_ms")) times.baseline_again_ms = real_from(t.at("baseline_again_ms"));
   get_whole(t.at("rounds"), times.rounds);
   const Json& m = json.at("machine");
   Machine& machine = row.machine;
@@ -321,6 +342,8 @@ Row row_from_json(const std::string& line, const std::string& where) {
     if (json.contains("scene_hash")) json.at("scene_hash").get_to(row.scene_hash);
     // Rows of the scene's own flight have none.
     if (json.contains("camera")) json.at("camera").get_to(row.camera);
+    // Rows of the default number have none.
+    if (json.contains("pixel_samples")) get_whole(json.at("pixel_samples"), row.pixel_samples);
     row.technique = technique_from(json.at("technique"));
     json.at("plan_status").get_to(row.plan_status);
     results_from(json, row);

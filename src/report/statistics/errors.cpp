@@ -9,6 +9,7 @@ namespace gnomon::report {
 namespace {
 
 constexpr float kHalf = 0.5f;
+constexpr float kQuarter = 0.25f;
 constexpr float kTenth = 0.1f;  // what shows on a surface of one brightness
 
 double share(double part, std::uint64_t whole) noexcept {
@@ -82,6 +83,37 @@ double excess_flips(std::span<const float> before, std::span<const float> after,
     flips += std::abs(after[i] - before[i]) > kHalf && !truth_flips ? 1 : 0;
   }
   return share(static_cast<double>(flips), judged);
+}
+
+PixelErrors pixel_errors(std::span<const float> mask, std::span<const float> light,
+                         std::span<const std::uint8_t> several) noexcept {
+  PixelErrors errors;
+  double all = 0.0, one = 0.0;
+  for (std::size_t i = 0; i < mask.size(); ++i) {
+    if (light[i] < 0.0f) continue;
+    const double error = std::abs(static_cast<double>(mask[i]) - static_cast<double>(light[i]));
+    ++errors.pixels;
+    all += error;
+    if (several[i] != 0)
+      ++errors.several;
+    else
+      one += error;
+  }
+  errors.error = share(all, errors.pixels);
+  errors.one_surface = share(one, errors.pixels - errors.several);
+  return errors;
+}
+
+double twinkling(std::span<const float> before, std::span<const float> after,
+                 std::span<const float> light_before, std::span<const float> light_after) noexcept {
+  std::uint64_t compared = 0, twinkles = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (light_before[i] < 0.0f || light_after[i] < 0.0f) continue;
+    ++compared;
+    const float beyond = std::abs(after[i] - before[i]) - std::abs(light_after[i] - light_before[i]);
+    twinkles += beyond > kQuarter ? 1 : 0;
+  }
+  return share(static_cast<double>(twinkles), compared);
 }
 
 PixelAliasing pixel_aliasing(std::span<const float> m) {

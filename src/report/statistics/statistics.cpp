@@ -79,6 +79,26 @@ double rank_correlation(std::span<const double> a, std::span<const double> b) {
   return together / std::sqrt(spread_a * spread_b);
 }
 
+SignTest sign_test(std::span<const double> first, std::span<const double> second) {
+  SignTest test;
+  for (std::size_t i = 0; i < std::min(first.size(), second.size()); ++i) {
+    if (!std::isfinite(first[i]) || !std::isfinite(second[i])) continue;
+    test.less += first[i] < second[i] ? 1 : 0;
+    test.more += first[i] > second[i] ? 1 : 0;
+  }
+  const auto count = static_cast<double>(test.less + test.more);
+  if (count == 0.0) return test;
+  // Twice the tail of the binomial distribution at the rarer side.
+  double tail = 0.0;
+  for (std::size_t i = 0; i <= std::min(test.less, test.more); ++i) {
+    const auto k = static_cast<double>(i);
+    tail += std::exp(std::lgamma(count + 1.0) - std::lgamma(k + 1.0) - std::lgamma(count - k + 1.0) -
+                     count * std::log(2.0));
+  }
+  test.chance = std::min(2.0 * tail, 1.0);
+  return test;
+}
+
 std::vector<std::size_t> pareto_front(std::span<const Choice> choices) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < choices.size(); ++i) {

@@ -35,6 +35,7 @@ ShadowLookup question() {
   at.depth = q.z;
   at.rotation = q.w;
   at.depth_gradient = texelFetch(gradients, pixel, 0).xy;
+  at.pixel = texelFetch(gradients, pixel, 0).zw;
   at.layer_size = vec2(textureSize(depth_map, 0).xy);
   at.box = box;
   at.disc = mat2(box.x);
@@ -133,7 +134,7 @@ class Asker {
     Row points, gradients;
     for (const Question& q : questions) {
       points.push_back({q.position.x, q.position.y, q.depth, q.rotation});
-      gradients.push_back({q.depth_gradient.x, q.depth_gradient.y, 0.0f, 0.0f});
+      gradients.push_back({q.depth_gradient.x, q.depth_gradient.y, q.pixel.x, q.pixel.y});
     }
     questions_ = image_of(points);
     gradients_ = image_of(gradients);

@@ -21,6 +21,7 @@ struct Question {
   float depth = 0.0f;
   glm::vec2 depth_gradient{0.0f};
   float rotation = 0.0f;
+  glm::vec2 pixel{0.0f};  ///< FilterLookup::pixel
 };
 
 /// Every question stands in a parallel light, 10 world units of depth over the map's range, 8 texels to a

@@ -36,6 +36,7 @@ FilterLookup lookup_of(const FilterSettings& settings, const TestMap& map, const
   lookup.texels_per_world = glm::dmat2(kTestTexelsPerWorld);
   lookup.ray = {q.depth, 1.0, 1.0 / kTestDepthRange, 0.0};
   lookup.rotation = q.rotation;
+  lookup.pixel = q.pixel;
   if (settings.filter->hooks.needs_depth_max != nullptr && settings.filter->hooks.needs_depth_max(settings)) {
     // The pyramid's texels, as depth_max_in takes them.
     const double side = 2.0 * lookup.box.x;

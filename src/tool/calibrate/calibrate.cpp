@@ -96,7 +96,7 @@ int run_calibrate(const CalibrateRequest& request, bool json) {
     if (std::filesystem::exists(std::filesystem::path(request.out) / report::kRowsFile))
       throw std::runtime_error(request.out + ": was measured already: gnomon calibrate " + request.out +
                                " fits to that; another --out measures again");
-    (void)compare(own_sweep(request));
+    (void)compare(std::vector{own_sweep(request)});
     folders.push_back(request.out);
   }
   std::vector<report::Row> rows;

@@ -6,6 +6,7 @@
 #include <cinttypes>
 #include <cstdio>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -28,6 +29,7 @@
 #include "progress.hpp"
 #include "scene_words.hpp"
 #include "stage.hpp"
+#include "study_file.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -53,6 +55,7 @@ report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::siz
   row.light_azimuth_deg = sweep.light.azimuth_deg;
   row.camera = sweep.camera_text;
   row.animation = sweep.animation;
+  row.pixel_samples = sweep.pixel_samples;
   row.technique = sweep.entries[entry].technique;
   return row;
 }
@@ -92,15 +95,25 @@ std::vector<std::string> hashes_of(const Sweep& sweep) {
   return hashes;
 }
 
-std::set<std::string> known_keys(const Sweep& sweep, bool resume, const std::vector<std::string>& hashes) {
-  const fs::path file = fs::path(sweep.out) / report::kRowsFile;
+/// A sweep with the hashes of its scenes.
+struct Part {
+  const CompareRequest* request = nullptr;
+  Sweep sweep;
+  std::vector<std::string> hashes;
+};
+
+std::set<std::string> known_keys(const std::vector<Part>& parts, bool resume) {
+  const fs::path file = fs::path(parts.front().sweep.out) / report::kRowsFile;
   std::set<std::string> keys;
   if (!fs::exists(file)) return keys;
   if (!resume)
     throw std::runtime_error(
         file.string() + " already exists; --resume continues it, another --out starts from the beginning");
   report::SceneHashes now;
-  for (std::size_t i = 0; i < hashes.size(); ++i) (void)now.agree(sweep.scenes[i], hashes[i]);
+  for (const Part& part : parts) {
+    for (std::size_t i = 0; i < part.hashes.size(); ++i)
+      (void)now.agree(part.sweep.scenes[i], part.hashes[i]);
+  }
   std::vector<std::string> warnings;
   const std::vector<report::Row> rows = report::read_rows(file, &warnings);
   for (const std::string& line : warnings)
@@ -114,50 +127,60 @@ std::set<std::string> known_keys(const Sweep& sweep, bool resume, const std::vec
   return keys;
 }
 
-/// One sweep under way.
+/// Sweeps under way, one after the other.
 class Run {
  public:
-  Run(const CompareRequest& request, const Sweep& sweep, std::vector<std::string> hashes,
-      const report::Machine& machine, std::set<std::string> known, report::ResultsLock lock)
-      : request_(request),
-        sweep_(sweep),
-        hashes_(std::move(hashes)),
+  Run(const std::vector<Part>& parts, const report::Machine& machine, std::set<std::string> known,
+      report::ResultsLock lock)
+      : parts_(parts),
         machine_(machine),
         known_(std::move(known)),
-        file_(fs::path(sweep.out) / report::kRowsFile, std::move(lock)),
+        file_(fs::path(parts.front().sweep.out) / report::kRowsFile, std::move(lock)),
         progress_("gnomon compare, " + std::to_string(rows_in_all()) + " rows, steps", steps_in_all()) {}
 
   void all() {
-    for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
-      std::unique_ptr<Stage> stage;
-      for (int frame = 0; frame < sweep_.frames; ++frame) {
-        std::vector<Task> tasks = tasks_of(request_, sweep_, scene, frame, known_);
-        if (tasks.empty()) continue;
-        if (!stage) stage = std::make_unique<Stage>(sweep_, sweep_.scenes[scene]);
-        one_frame(*stage, scene, frame, tasks);
-      }
+    for (const Part& part : parts_) {
+      for (std::size_t scene = 0; scene < part.sweep.scenes.size(); ++scene) one_scene(part, scene);
     }
   }
 
  private:
   /// Errors of a row weigh as much as its rounds.
-  [[nodiscard]] int steps_of_errors() const { return sweep_.rounds + 1; }
+  [[nodiscard]] static int steps_of_errors(const Sweep& sweep) { return sweep.rounds + 1; }
 
-  /// Sums up what `of_frame` makes of the rows of each frame.
+  /// Sums up what `of_frame` makes of each sweep and the rows of each of its frames.
   template <class OfFrame>
   [[nodiscard]] long long sum_over_frames(const OfFrame& of_frame) const {
     long long sum = 0;
-    for (std::size_t scene = 0; scene < sweep_.scenes.size(); ++scene) {
-      for (int frame = 0; frame < sweep_.frames; ++frame)
-        sum += of_frame(static_cast<long long>(tasks_of(request_, sweep_, scene, frame, known_).size()));
+    for (const Part& part : parts_) {
+      for (std::size_t scene = 0; scene < part.sweep.scenes.size(); ++scene) {
+        for (int frame = 0; frame < part.sweep.frames; ++frame)
+          sum += of_frame(part.sweep, static_cast<long long>(tasks_in(part, scene, frame).size()));
+      }
     }
     return sum;
   }
   [[nodiscard]] long long rows_in_all() const {
-    return sum_over_frames([](long long rows) { return rows; });
+    return sum_over_frames([](const Sweep&, long long rows) { return rows; });
   }
   [[nodiscard]] long long steps_in_all() const {
-    return sum_over_frames([&](long long rows) { return rows > 0 ? (2 * rows + 1) * steps_of_errors() : 0; });
+    return sum_over_frames([](const Sweep& sweep, long long rows) {
+      return rows > 0 ? (2 * rows + 2) * steps_of_errors(sweep) : 0;
+    });
+  }
+
+  [[nodiscard]] std::vector<Task> tasks_in(const Part& part, std::size_t scene, int frame) const {
+    return tasks_of(*part.request, part.sweep, scene, frame, known_);
+  }
+
+  void one_scene(const Part& part, std::size_t scene) {
+    std::unique_ptr<Stage> stage;
+    for (int frame = 0; frame < part.sweep.frames; ++frame) {
+      std::vector<Task> tasks = tasks_in(part, scene, frame);
+      if (tasks.empty()) continue;
+      if (!stage) stage = std::make_unique<Stage>(part.sweep, part.sweep.scenes[scene]);
+      one_frame(part, *stage, scene, frame, tasks);
+    }
   }
 
   void step(long long count) {
@@ -165,33 +188,34 @@ class Run {
     progress_.set(steps_ += count);
   }
 
-  void one_frame(Stage& stage, std::size_t scene, int frame, std::vector<Task>& tasks) {
-    const FrameTruth truth = frame_truth(stage, frame, sweep_.baseline);
-    const bool pictures = frame == sweep_.frames / 2;
+  void one_frame(const Part& part, Stage& stage, std::size_t scene, int frame, std::vector<Task>& tasks) {
+    const Sweep& sweep = part.sweep;
+    const FrameTruth truth = frame_truth(stage, frame, sweep.baseline, sweep.pixel_samples);
+    const bool pictures = frame == sweep.frames / 2;
     std::vector<const SweepEntry*> entries;
     for (Task& task : tasks) {
-      const SweepEntry& entry = sweep_.entries[task.entry];
+      const SweepEntry& entry = sweep.entries[task.entry];
       entries.push_back(&entry);
       FramePictures drawn;
       measure_errors(stage, truth, entry, task.row, pictures ? &drawn : nullptr);
-      if (pictures) task.row.pictures = write_pictures(sweep_.out, scene, task.entry, truth, drawn);
-      step(steps_of_errors());
+      if (pictures)
+        task.row.pictures = write_pictures(sweep.out, sweep.first_scene + scene, task.entry, truth, drawn);
+      step(steps_of_errors(sweep));
     }
     const std::vector<report::Times> times =
-        measure_times(stage, truth.camera, entries, sweep_.baseline, sweep_.rounds, [this] { step(1); });
+        measure_times(stage, truth.camera, entries, sweep.baseline, sweep.rounds, [this] { step(1); });
     for (std::size_t i = 0; i < tasks.size(); ++i) {
-      tasks[i].row.scene_hash = hashes_[scene];
+      tasks[i].row.scene_hash = part.hashes[scene];
       tasks[i].row.animation_time_s = stage.animation_seconds(frame);
       tasks[i].row.times = times[i];
       tasks[i].row.machine = machine_;
       tasks[i].row.machine.load = current_load();
       file_.append(tasks[i].row);
+      known_.insert(tasks[i].row.key());
     }
   }
 
-  const CompareRequest& request_;
-  const Sweep& sweep_;
-  std::vector<std::string> hashes_;  ///< of the scenes
+  const std::vector<Part>& parts_;
   report::Machine machine_;
   std::set<std::string> known_;
   report::RowsFile file_;
@@ -199,35 +223,68 @@ class Run {
   long long steps_ = 0;
 };
 
+/// The sweep of a request, numbered behind those before it.
+Part part_of(const CompareRequest& request, const std::vector<Part>& before) {
+  Part part{&request, {}, {}};
+  try {
+    part.sweep = make_sweep(request);
+  } catch (const std::runtime_error& error) {
+    if (request.where.empty()) throw;
+    throw std::runtime_error(request.where + ": " + error.what());
+  }
+  if (before.empty()) return part;
+  const Sweep& last = before.back().sweep;
+  part.sweep.first_index = last.index(last.scenes.size(), 0, 0);
+  part.sweep.first_scene = last.first_scene + last.scenes.size();
+  return part;
+}
+
 }  // namespace
 
-Compared compare(const CompareRequest& request) {
-  Sweep sweep = make_sweep(request);
-  check_folder("--out", sweep.out);
+Compared compare(std::span<const CompareRequest> requests) {
+  const CompareRequest& first = requests.front();
+  const std::string& out = first.out;
+  std::vector<Part> parts;
+  for (const CompareRequest& request : requests) parts.push_back(part_of(request, parts));
+  check_folder("--out", out);
   std::optional<report::ResultsLock> lock;  // before rows are read: another process may be writing them
-  if (fs::is_directory(sweep.out)) lock.emplace(sweep.out);
-  const std::vector<std::string> hashes = hashes_of(sweep);
-  check_animations(sweep);
-  std::set<std::string> known = known_keys(sweep, request.resume, hashes);
-  const std::unique_ptr<render::Context> context = render::create_context(sweep.context);
-  for (const std::string& line : sweep.left_out) warn(line);
-  for (const std::string& line : fit_to_memory(sweep, request.map_memory_mib)) warn(line);
-  make_folder("--out", sweep.out);
+  if (fs::is_directory(out)) lock.emplace(out);
+  for (Part& part : parts) {
+    part.hashes = hashes_of(part.sweep);
+    check_animations(part.sweep);
+  }
+  std::set<std::string> known = known_keys(parts, first.resume);
+  const std::unique_ptr<render::Context> context = render::create_context(first.context);
+  for (Part& part : parts) {
+    for (const std::string& line : part.sweep.left_out) warn(line);
+    for (const std::string& line : fit_to_memory(part.sweep, first.map_memory_mib)) warn(line);
+  }
+  make_folder("--out", out);
   if (!lock) {
-    lock.emplace(sweep.out);
-    known = known_keys(sweep, request.resume, hashes);
+    lock.emplace(out);
+    known = known_keys(parts, first.resume);
   }
   watch_interrupts();
-  Run(request, sweep, hashes, machine(context->info()), std::move(known), std::move(*lock)).all();
+  Run(parts, machine(context->info()), std::move(known), std::move(*lock)).all();
   // A shard's report would show a part as if it were the whole.
-  return {(fs::path(sweep.out) / report::kRowsFile).string(),
-          request.shards == 1 ? report::write_report(sweep.out).string() : std::string()};
+  return {(fs::path(out) / report::kRowsFile).string(),
+          first.shards == 1 ? report::write_report(out).string() : std::string()};
 }
 
 namespace {
 
-int run_compare(const CompareRequest& request) {
-  const auto [rows, page] = compare(request);
+/// By name: whether the option stands on the command line.
+using Given = std::map<std::string, bool>;
+
+int run_compare(const CompareRequest& request, const OptionsOf& options_of, const Given& given) {
+  const bool is_study = request.scenes.size() == 1 && is_study_file(request.scenes.front());
+  for (const auto& [option, stands] : given) {
+    if (is_study && stands && option != "SCENE" && !stands_beside_study(option))
+      throw std::runtime_error(option + ": not beside a study, whose file has it as a field");
+  }
+  const std::vector<CompareRequest> requests =
+      is_study ? read_study(request.scenes.front(), request, options_of) : std::vector{request};
+  const auto [rows, page] = compare(requests);
   if (request.json) {
     print_line(nlohmann::json{{"rows", rows}, {"report", page}}.dump());
   } else {
@@ -319,6 +376,10 @@ std::vector<Option> frame_options(CompareRequest& request) {
            .target = &request.animation,
            .help = "animation that the scenes play while frames pass, by name or number",
            .word = "NAME"},
+          {.name = "--pixel-samples",
+           .target = &request.pixel_samples,
+           .help = "rays through each pixel, for errors over whole pixels and twinkling; 0: none",
+           .range = {{0, 64}}},
           {.name = "--rounds",
            .target = &request.rounds,
            .help = "timings of each technique per frame",
@@ -383,15 +444,27 @@ std::string compare_footer() {
 
 }  // namespace
 
+namespace {
+
+std::vector<Option> options_of(CompareRequest& request) {
+  request.out = "out/compare";
+  request.pixel_samples = report::kPixelSamples;
+  std::vector<Option> options{scenes_option(request, "builtin:NAME or glTF files; or one study.json", true)};
+  for (const auto& part : {technique_options, frame_options, light_and_camera_options, limit_options}) {
+    for (Option& option : part(request)) options.push_back(std::move(option));
+  }
+  return options;
+}
+
+}  // namespace
+
 std::function<int()> declare_compare(Arguments& arguments) {
   const auto request = std::make_shared<CompareRequest>();
-  request->out = "out/compare";
-  arguments.options = {scenes_option(*request, "builtin:NAME or glTF files", true)};
-  for (const auto& part : {technique_options, frame_options, light_and_camera_options, limit_options}) {
-    for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
-  }
+  const auto given = std::make_shared<Given>();
+  arguments.options = options_of(*request);
+  for (Option& option : arguments.options) option.given = &(*given)[option.name];
   arguments.footer = compare_footer();
-  return [request] { return run_compare(*request); };
+  return [request, given] { return run_compare(*request, options_of, *given); };
 }
 
 }  // namespace gnomon::tool

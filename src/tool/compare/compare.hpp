@@ -1,6 +1,7 @@
 // `gnomon compare`: every technique of a sweep on every frame of every scene, a row of results each.
 #pragma once
 
+#include <span>
 #include <string>
 
 #include "sweep.hpp"
@@ -12,6 +13,7 @@ struct CompareRequest : SweepRequest {
   std::size_t shard = 0, shards = 1;  ///< of the rows, each `shards`-th from `shard` on
   double map_memory_mib = 0.0;        ///< that a technique's maps may take; 0: what there is
   bool resume = false;                ///< rows that the folder has are not measured again
+  std::string where;                  ///< file and view of a study, for messages
 
   [[nodiscard]] bool is_mine(std::uint64_t row) const noexcept { return row % shards == shard; }
 };
@@ -20,8 +22,9 @@ struct CompareRequest : SweepRequest {
 struct Compared {
   std::string rows, page;  ///< files; no page: one of several shards
 };
-/// Appends to `results.jsonl` in the sweep's folder, and writes the report unless this is one of several
-/// shards. Throws std::runtime_error.
-Compared compare(const CompareRequest& request);
+/// Appends the rows of all requests, in their order, to `results.jsonl` in their folder, and writes the
+/// report unless this is one of several shards. Folder, shard, context and memory are those of the first,
+/// which there must be. Throws std::runtime_error.
+Compared compare(std::span<const CompareRequest> requests);
 
 }  // namespace gnomon::tool

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <glm/common.hpp>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -46,6 +47,11 @@ double light_radius(const render::FilterSettings& filter, const Light& light) no
                                                          : penumbra(filter, 0.5, 1.0);
 }
 
+/// The kernel no narrower than the pixel, half sides in texels.
+glm::dvec2 wider(const glm::dvec2& kernel, const glm::dvec2& pixel) noexcept {
+  return glm::max(kernel, glm::min(pixel, render::kMaxRadiusTexels));
+}
+
 std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const Planned& plan,
                               const SweepEntry& entry, const std::vector<float>& maps) {
   if (entry.irregular_samples == 1) return truth.lit;
@@ -66,11 +72,22 @@ std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const
   const bool gauss = entry.filter.filter->info.reads != render::MapRead::depth &&
                      entry.filter.blur == render::BlurShape::gauss;
   const double side = kernel_half_side(entry.filter) * (gauss ? kDeviationOfSide : 1.0);
+  const bool covers_pixel = render::covers_pixel(entry.filter);
   const auto axes = [&](std::size_t pixel) {
     const glm::dvec3& point = truth.points.pixels[pixel].position;
-    if (entry.filter.unit == render::KernelUnit::world) return trace::world_axes(stage.light(), point, side);
     const ShadowMap* const map = plan.map(static_cast<int>(maps[pixel]));
-    return map == nullptr ? trace::KernelAxes{} : trace::texel_axes(*map, point, side);
+    const bool in_world = entry.filter.unit == render::KernelUnit::world;
+    if (in_world && !covers_pixel) return trace::world_axes(stage.light(), point, side);
+    if (map == nullptr) return trace::KernelAxes{};
+    glm::dvec2 half_sides(side);
+    if (in_world)
+      half_sides = trace::pixel_in_texels(*map, point, trace::world_axes(stage.light(), point, side));
+    if (covers_pixel) {
+      const trace::KernelAxes facet = trace::facet_axes(truth.camera, truth.points.pixels[pixel]);
+      half_sides = wider(half_sides, trace::pixel_in_texels(*map, point, facet));
+    }
+    const trace::KernelAxes texel = trace::texel_axes(*map, point, 1.0);
+    return trace::KernelAxes{texel.x * half_sides.x, texel.y * half_sides.y};
   };
   return trace::filtered_reference(stage.tracer(), truth.points, stage.light(),
                                    gauss ? trace::KernelShape::gauss : trace::KernelShape::box, axes)
@@ -121,12 +138,17 @@ void count_savings(const render::FrameStats& stats, PruneSource source, report::
   }
 }
 
-/// What the frame's camera shows of the scene as it is posed, and its hard shadow.
-void trace_frame(Stage& stage, const SweepEntry& entry, FrameTruth& truth) {
+/// What a camera shows of the scene as it is posed.
+trace::SurfacePoints points_through(Stage& stage, const SweepEntry& entry, const Camera& camera) {
   render::Renderer& renderer = stage.renderer();
-  renderer.draw(stage.plan(entry, truth.camera), truth.camera, stage.filter(entry), frame_options(false));
-  truth.points = trace::surface_points(stage.tracer(), truth.camera, stage.light(), renderer.positions(),
-                                       renderer.normals());
+  renderer.draw(stage.plan(entry, camera), camera, stage.filter(entry), frame_options(false));
+  return trace::surface_points(stage.tracer(), camera, stage.light(), renderer.positions(),
+                               renderer.normals());
+}
+
+/// What the frame's camera shows, and its hard shadow.
+void trace_frame(Stage& stage, const SweepEntry& entry, FrameTruth& truth) {
+  truth.points = points_through(stage, entry, truth.camera);
   truth.hard = trace::hard_reference(stage.tracer(), truth.points, stage.light());
 }
 
@@ -152,6 +174,55 @@ std::vector<float> depths_of(const trace::SurfacePoints& points, const Camera& c
                              : 0.0f);
   }
   return depths;
+}
+
+/// Pixel of `before` that shows the point which pixel `i` of `after` shows, within the side of a pixel; -1:
+/// none does.
+std::vector<int> seen_before(const trace::SurfacePoints& after, const trace::SurfacePoints& before,
+                             const Camera& camera_before) {
+  const CameraAxes axes = camera_axes(camera_before);
+  std::vector<int> seen_at(after.pixels.size(), -1);
+  for (std::size_t i = 0; i < after.pixels.size(); ++i) {
+    const trace::SurfacePoint& point = after.pixels[i];
+    if (point.state != trace::PixelState::facing) continue;
+    const glm::dvec3 way = point.position - camera_before.position;
+    const double depth = glm::dot(axes.forward, way), scale = camera_before.orthographic ? 1.0 : depth;
+    if (!(depth > 0.0)) continue;
+    const double width = (camera_before.right - camera_before.left) * scale,
+                 height = (camera_before.top - camera_before.bottom) * scale;
+    const double column =
+        std::floor((glm::dot(axes.right, way) - camera_before.left * scale) / width * before.width);
+    const double row =
+        std::floor((camera_before.top * scale - glm::dot(axes.up, way)) / height * before.height);
+    if (!(column >= 0.0 && column < before.width && row >= 0.0 && row < before.height)) continue;
+    const int at = static_cast<int>(row) * before.width + static_cast<int>(column);
+    const trace::SurfacePoint& found = before.pixels[static_cast<std::size_t>(at)];
+    if (found.state != trace::PixelState::facing) continue;
+    // Off the plane, not along it: a pixel that grazes its surface is long.
+    const double side = std::max(width / before.width, height / before.height);
+    if (std::abs(glm::dot(point.normal, found.position - point.position)) <= side) seen_at[i] = at;
+  }
+  return seen_at;
+}
+
+/// `values` of the pixels that `seen_at` names; `none` where it names none.
+std::vector<float> at_pixels(const std::vector<float>& values, const std::vector<int>& seen_at, float none) {
+  std::vector<float> found(seen_at.size(), none);
+  for (std::size_t i = 0; i < seen_at.size(); ++i)
+    if (seen_at[i] >= 0) found[i] = values[static_cast<std::size_t>(seen_at[i])];
+  return found;
+}
+
+/// What whole pixels hold of `mask`, and of its change since `mask_before`, the frame before through its own
+/// camera.
+report::PixelErrors errors_of_pixels(const FrameTruth::Pixels& pixels, const std::vector<float>& mask,
+                                     const std::vector<float>& mask_before) {
+  report::PixelErrors errors = report::pixel_errors(mask, pixels.light, pixels.several);
+  errors.twinkle = report::twinkling(mask_before, mask, pixels.light_before, pixels.light);
+  errors.twinkle_tracked =
+      report::twinkling(at_pixels(mask_before, pixels.seen_at, 0.0f), mask,
+                        at_pixels(pixels.light_before, pixels.seen_at, -1.0f), pixels.light);
+  return errors;
 }
 
 /// Samples of one technique over the rounds.
@@ -189,21 +260,38 @@ void time_visit(Planned& plan, const Camera& camera, Samples* samples) {
 
 }  // namespace
 
-FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry) {
+FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry, int pixel_samples) {
   FrameTruth truth;
   truth.frame = frame;
   truth.camera = stage.camera(frame);
   truth.before = stage.camera_before(frame);
   stage.see(frame);
-  if (stage.plays()) {
+  const bool over_pixels = pixel_samples > 0;
+  trace::SurfacePoints points_before;
+  if (stage.plays() || over_pixels) {
     stage.go_to(frame, Stage::At::before);
-    stage.retrace();
-    trace_frame(stage, entry, truth);
-    truth.lit_before = values_of(truth.hard);
+    if (stage.plays()) stage.retrace();
+    if (over_pixels) {
+      points_before = points_through(stage, entry, truth.before);
+      truth.pixels.light_before =
+          trace::pixel_reference(stage.tracer(), truth.before, points_before, stage.light(), pixel_samples)
+              .pixels;
+    }
+    if (stage.plays()) {
+      trace_frame(stage, entry, truth);
+      truth.lit_before = values_of(truth.hard);
+    }
     stage.go_to(frame, Stage::At::frame);
-    stage.retrace();
+    if (stage.plays()) stage.retrace();
   }
   trace_frame(stage, entry, truth);
+  if (over_pixels) {
+    trace::PixelReference pixels =
+        trace::pixel_reference(stage.tracer(), truth.camera, truth.points, stage.light(), pixel_samples);
+    truth.pixels.light = std::move(pixels.pixels);
+    truth.pixels.several = std::move(pixels.several);
+    truth.pixels.seen_at = seen_before(truth.points, points_before, truth.before);
+  }
   truth.lit = values_of(truth.hard);
   if (!stage.plays()) truth.lit_before = truth.lit;
   truth.depths = depths_of(truth.points, truth.camera);
@@ -217,6 +305,11 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   render::Renderer& renderer = stage.renderer();
   stage.go_to(truth.frame, Stage::At::before);
   Planned before(stage, entry, truth.before);
+  std::vector<float> picture_before;
+  if (!truth.pixels.light.empty()) {
+    before.draw(truth.before, frame_options(false));
+    picture_before = channel(renderer.mask(), 0);
+  }
   before.move_eye(truth.camera);
   before.draw(truth.camera, frame_options(false));
   const std::vector<float> mask_before = channel(renderer.mask(), 0);
@@ -240,6 +333,7 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
   row.errors = report::mask_errors(mask, truth.lit, soft);
   row.undecided_pixels = truth.undecided;
   row.flips = report::excess_flips(mask_before, mask, truth.lit_before, truth.lit);
+  if (!truth.pixels.light.empty()) row.pixel = errors_of_pixels(truth.pixels, mask, picture_before);
   row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
   if (!entry.by_pages()) row.expected_wrong = plan.expected({truth.camera, truth.lit, truth.depths}).share();
   count_costs(stats, plan, entry, row);
@@ -270,7 +364,8 @@ std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,
                                          const SweepEntry& baseline, int rounds,
                                          const std::function<void()>& done) {
   std::vector<const SweepEntry*> all = entries;
-  all.push_back(&baseline);
+  // Twice, as two techniques: their difference is the clock's noise.
+  all.insert(all.end(), {&baseline, &baseline});
   std::vector<std::unique_ptr<Planned>> plans;
   for (const SweepEntry* const entry : all) plans.push_back(std::make_unique<Planned>(stage, *entry, camera));
   std::vector<Samples> samples(all.size());
@@ -284,7 +379,8 @@ std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,
       done();
     }
   }
-  const double baseline_ms = report::median(samples.back().total_ms);
+  const double baseline_ms = report::median(samples[entries.size()].total_ms),
+               again_ms = report::median(samples.back().total_ms);
   std::vector<report::Times> times(entries.size());
   for (std::size_t i = 0; i < entries.size(); ++i) {
     const Samples& s = samples[i];
@@ -294,6 +390,7 @@ std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,
                 report::estimate(s.shade_ms),
                 report::estimate(s.total_ms),
                 baseline_ms,
+                again_ms,
                 rounds};
   }
   return times;

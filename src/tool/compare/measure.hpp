@@ -1,6 +1,7 @@
 // What one technique does on one frame: its errors against the truth, what it costs, and how long it takes.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -20,9 +21,17 @@ struct FrameTruth {
   std::vector<float> lit_before;
   std::uint64_t undecided = 0;
   std::vector<float> depths;  ///< view depths of the surfaces, 0: none
+  /// The light over whole pixels; empty where it was not asked for.
+  struct Pixels {
+    std::vector<float> light, light_before;  ///< of the frame, and of the one before through its own camera
+    std::vector<std::uint8_t> several;       ///< 1: the pixel shows several surfaces
+    std::vector<int> seen_at;  ///< pixel of the frame before that shows the same point; -1: none does
+  };
+  Pixels pixels = {};
 };
-/// Draws the frame once with `entry` to learn what is visible, and traces it.
-[[nodiscard]] FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry);
+/// Draws the frame once with `entry` to learn what is visible, and traces it. `pixel_samples`: rays through
+/// each pixel, for FrameTruth::pixels; 0: none.
+[[nodiscard]] FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry, int pixel_samples = 0);
 
 /// A technique's pictures of the frame, for those who look.
 struct FramePictures {

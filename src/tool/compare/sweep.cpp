@@ -365,7 +365,7 @@ SweepEntry sweep_entry(const report::Technique& technique) {
 }
 
 Sweep make_sweep(const SweepRequest& request) {
-  Sweep sweep{request, {}, {}, {}, {}};
+  Sweep sweep{request, {}, {}, {}, {}, request.pixel_samples};
   check_camera(request.camera);
   sweep.camera_text = camera_text(request.camera);
   sweep.scenes.clear();

@@ -30,6 +30,7 @@ struct SweepRequest : Measuring {
   double near_hint = 0.0;    ///< of split pseudo_near: view depth from which error counts
   bool visible_depths = false, visible_points = false;  ///< plan with what a frame shows
   render::MapPasses map_passes = render::MapPasses::automatic;
+  int pixel_samples = 0;  ///< rays through each pixel, for errors over whole pixels; 0: none
 };
 
 /// A sweep of one kind of maps, with the hard filter.
@@ -63,12 +64,15 @@ struct Sweep : Measuring {
   std::vector<std::string> left_out;  ///< combinations that cannot be measured, a line for each reason
   SweepEntry baseline;                ///< hard x no warp x one map, of the first map size
   std::string camera_text;            ///< of the camera's words, for rows
+  int pixel_samples = 0;              ///< rays through each pixel; 0: none
+  std::uint64_t first_index = 0;      ///< of its rows, where it is part of a study
+  std::size_t first_scene = 0;        ///< number of its first scene there
 
   /// Place of a row in the whole sweep.
   [[nodiscard]] std::uint64_t index(std::size_t scene, int frame, std::size_t entry) const noexcept {
     const auto row = static_cast<std::uint64_t>(scene) * static_cast<std::uint64_t>(frames) +
                      static_cast<std::uint64_t>(frame);
-    return row * entries.size() + entry;
+    return first_index + row * entries.size() + entry;
   }
 };
 

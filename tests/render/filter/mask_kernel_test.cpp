@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
+#include <string_view>
 
 #include "mask_frame.hpp"
 
@@ -56,6 +58,65 @@ TEST(Mask, of_a_lit_plane_is_lit_under_any_footprint) {
         EXPECT_GT(judged, frame.pixels() / 4);
       }
     }
+  }
+}
+
+/// Ground, and right above a camera at height 2.9 slats of 5 cm, 5 cm apart.
+Scene slats_over_ground() {
+  Scene scene = empty_scene();
+  add_material(scene, Material{});
+  add_quad(scene, {-20, 0, 20}, {40, 0, 0}, {0, 0, -40});
+  for (int i = -200; i < 200; ++i)
+    add_quad(scene, {static_cast<float>(i) * 0.1f, 3, 20}, {0.05f, 0, 0}, {0, 0, -40});
+  return scene;
+}
+Frame under_slats(Renderer& renderer, const Scene& scene, const char* filter, int pixels, int texels) {
+  const Camera camera =
+      perspective_camera({0.013, 2.9, 0.0}, {0, -1, 0}, {0, 0, -1}, 1.5, 1.0, 0.1, 10.0, pixels, pixels);
+  const FilterSettings settings = parse_filter(filter).settings;
+  PlanOptions options;
+  options.resolution.max_size = texels;
+  options.cascades = 1;
+  options.warp.warp = &warps::none;
+  set_margin(settings, options);
+  return draw(renderer, camera, plan_for(scene, camera, {0.02, -1.0, 0.01}, options), settings);
+}
+/// Mean distance of the ground's light from a half, and how many pixels that is of.
+std::pair<double, int> off_half(const Frame& frame) {
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    if (!frame.surface(i) || frame.map(i) < 0) continue;
+    sum += std::abs(double{frame.lit(i)} - 0.5);
+    ++count;
+  }
+  return {sum / std::max(count, 1), count};
+}
+
+TEST(Mask, of_kernels_that_cover_the_pixel_is_the_open_share_of_what_is_finer_than_a_pixel) {
+  const Scene scene = slats_over_ground();
+  Renderer renderer(scene);
+  // A pixel is 0.34 wide, 3.4 pairs of slats, and some 28 texels.
+  for (const char* name : {"pcf", "pcf_tent"}) {
+    const auto [plain, pixels] = off_half(under_slats(renderer, scene, name, 16, 512));
+    EXPECT_EQ(pixels, 256);
+    EXPECT_GT(plain, 0.3) << name;
+    const auto [covering, same] =
+        off_half(under_slats(renderer, scene, (std::string(name) + ":footprint=1").c_str(), 16, 512));
+    EXPECT_EQ(same, 256);
+    EXPECT_LT(covering, 0.1) << name;
+  }
+}
+
+TEST(Mask, of_kernels_that_cover_the_pixel_is_the_plain_one_where_texels_are_larger_than_pixels) {
+  const Scene scene = slats_over_ground();
+  Renderer renderer(scene);
+  for (const char* name : {"pcf", "pcf_tent", "pcf:pattern=1,radius=2"}) {
+    const Frame plain = under_slats(renderer, scene, name, 96, 128);
+    const std::string covering = std::string(name) +
+                                 (std::string_view(name).find(':') == std::string_view::npos ? ":" : ",") +
+                                 "footprint=1";
+    EXPECT_EQ(under_slats(renderer, scene, covering.c_str(), 96, 128).mask.values, plain.mask.values) << name;
   }
 }
 

@@ -153,6 +153,55 @@ TEST(PcfFilter, returns_the_same_on_gpu_and_cpu_for_discs_of_samples) {
   }
 }
 
+TEST(PcfFilter, covers_the_pixel_and_is_plain_where_the_pixel_is_narrower) {
+  const FilterSettings settings = settings_from("pcf:footprint=1");
+  const auto lit = [&](double x, const glm::dvec2& pixel) {
+    FilterLookup lookup = edge_at_8(x, settings);
+    lookup.pixel = pixel;
+    return settings.filter->reference.visibility({}, lookup, settings);
+  };
+  for (double x = 1.0; x <= 15.0; x += 0.17) {
+    EXPECT_EQ(lit(x, {1.5, 0.7}), see(edge_at_8(x, settings), 1.0)) << x;
+    // A ramp as wide as the pixel, whatever the pixel is along the edge.
+    EXPECT_NEAR(lit(x, {6.0, 0.2}), std::clamp(0.5 + (x - 8.0) / 12.0, 0.0, 1.0), kWeights) << x;
+    EXPECT_NEAR(lit(x, {6.0, 9.0}), std::clamp(0.5 + (x - 8.0) / 12.0, 0.0, 1.0), kWeights) << x;
+  }
+}
+
+TEST(PcfFilter, returns_the_same_on_gpu_and_cpu_over_pixels_of_every_width) {
+  const TestMap map = random_map(48, 83, 9);
+  std::vector<Question> questions = random_questions(map, 2048, 10);
+  for (std::size_t i = 0; i < questions.size(); ++i)
+    questions[i].pixel = {static_cast<float>(i % 7) * 0.75f, static_cast<float>(i % 5) * 1.25f};
+  for (const char* text : {"pcf:footprint=1", "pcf:footprint=1,radius=0", "pcf_tent:footprint=1",
+                           "pcf:footprint=1,pattern=1,radius=2"}) {
+    const FilterSettings settings = settings_from(text);
+    const std::vector<float> gpu = ask_shader(settings, map, questions);
+    const std::vector<double> cpu = ask_reference(settings, map, questions);
+    // The hardware's bilinear weights where the kernel stays 2 x 2, rounded places of a disc's samples.
+    const double bound = settings.radius == 0.0 ? 2.0 / 256.0 : 1e-4;
+    int off = 0;
+    for (std::size_t i = 0; i < gpu.size(); ++i) off += std::abs(gpu[i] - cpu[i]) > bound ? 1 : 0;
+    EXPECT_LE(off, 2) << text;
+  }
+}
+
+TEST(PcfFilter, stretches_a_disc_to_the_pixel) {
+  // Over an edge, the samples' spread along x is that of a disc with the box's variance.
+  const FilterSettings settings = settings_from("pcf:footprint=1,pattern=1,radius=1,samples=64,rotate=0");
+  constexpr double kPixel = 6.0, kRadius = kPixel / 0.86602540378443865;
+  double low = 8.0, high = 8.0;
+  for (double x = 0.0; x <= 16.0; x += 0.05) {
+    FilterLookup lookup = edge_at_8(x, settings);
+    lookup.pixel = {kPixel, 0.0};
+    const double lit = settings.filter->reference.visibility({}, lookup, settings);
+    if (lit < 0.1) low = x;
+    if (lit < 0.9) high = x;
+  }
+  // A disc's chord: a tenth of it lies beyond 0.687 of its radius.
+  EXPECT_NEAR(high - low, 2.0 * 0.687 * kRadius, 0.5);
+}
+
 TEST(PcfFilter, spreads_its_discs_evenly) {
   // Over an edge through the middle, half of the samples are lit at every angle, but for a sample or two.
   for (const char* text : {"pcf:pattern=1,radius=6,samples=32", "pcf:pattern=2,radius=6,samples=32"}) {

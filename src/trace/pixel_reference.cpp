@@ -1,0 +1,91 @@
+// How much light falls on what a pixel shows, over all of the pixel and not at its centre alone?
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "gnomon/trace/reference.hpp"
+#include "light_ray.hpp"
+#include "sampling.hpp"
+#include "surface_rays.hpp"
+
+namespace gnomon::trace {
+namespace {
+
+/// Cosine between normals from which on two points are of one surface: a bend of 18 degrees, as for pictures.
+constexpr double kSameNormal = 0.95;
+
+/// The surface on a ray from the eye; sky where there is none.
+SurfacePoint met_by(const Tracer& tracer, const Ray& ray, const Light& light) noexcept {
+  SurfacePoint point;
+  const Hit hit = tracer.first_hit(ray);
+  if (hit.triangle == kNoTriangle) return point;
+  point.triangle = hit.triangle;
+  point.position = ray.origin + ray.direction * hit.t;
+  point.normal = glm::dot(hit.normal, ray.direction) > 0.0 ? -hit.normal : hit.normal;
+  const LightRay to_light = light_ray(light, point.position);
+  const double cosine = glm::dot(point.normal, to_light.direction);
+  point.state = std::abs(cosine) < kGrazingCosine ? PixelState::undecided
+                : cosine < 0.0                    ? PixelState::turned_away
+                : to_light.lit                    ? PixelState::facing
+                                                  : PixelState::unlit;
+  return point;
+}
+
+/// The longer side of a pixel at the depth of a point, across the view, world units.
+double pixel_side(const Camera& camera, const CameraAxes& axes, const glm::dvec3& point) noexcept {
+  const double depth = camera.orthographic ? 1.0 : glm::dot(axes.forward, point - camera.position);
+  return depth *
+         std::max((camera.right - camera.left) / camera.width, (camera.top - camera.bottom) / camera.height);
+}
+
+}  // namespace
+
+PixelReference pixel_reference(const Tracer& tracer, const Camera& camera, const SurfacePoints& points,
+                               const Light& light, int samples) {
+  PixelReference result{points.width, points.height, {}, {}};
+  result.pixels.assign(points.pixels.size(), -1.0f);
+  result.several.assign(points.pixels.size(), 0);
+  const auto width = static_cast<std::size_t>(points.width);
+  const CameraAxes axes = camera_axes(camera);
+  for_each_row(points.height, [&](int row) {
+    struct Count {
+      std::size_t pixel, rays;
+    };
+    std::vector<Ray> rays;
+    std::vector<Count> counts;
+    for (std::size_t column = 0; column < width; ++column) {
+      const std::size_t pixel = static_cast<std::size_t>(row) * width + column;
+      const SurfacePoint& centre = points.pixels[pixel];
+      if (centre.state != PixelState::facing) continue;
+      const double side = pixel_side(camera, axes, centre.position);
+      const std::size_t before = rays.size();
+      for (int s = 0; s < samples; ++s) {
+        const glm::dvec2 at = stratified(static_cast<std::uint32_t>(pixel), s, samples);
+        const SurfacePoint point =
+            met_by(tracer,
+                   eye_ray(camera, axes, (static_cast<double>(column) + at.x) / points.width,
+                           (row + at.y) / points.height),
+                   light);
+        const bool lightable = point.state == PixelState::facing;
+        const bool same = lightable && glm::dot(point.normal, centre.normal) >= kSameNormal &&
+                          std::abs(glm::dot(centre.normal, point.position - centre.position)) <= side;
+        if (!same) result.several[pixel] = 1;
+        if (!lightable) continue;
+        const LightRay to_light = light_ray(light, point.position);
+        rays.push_back(ray_off_plane(point, point.position, to_light.direction, to_light.distance,
+                                     error_of(tracer, light, point)));
+      }
+      if (rays.size() > before) counts.push_back({pixel, rays.size() - before});
+    }
+    std::vector<std::uint8_t> stopped(rays.size());
+    tracer.occluded(rays, stopped);
+    std::size_t next = 0;
+    for (const Count& count : counts) {
+      std::size_t lit = 0;
+      for (std::size_t i = 0; i < count.rays; ++i) lit += stopped[next++] == 0 ? 1 : 0;
+      result.pixels[count.pixel] = static_cast<float>(lit) / static_cast<float>(count.rays);
+    }
+  });
+  return result;
+}
+
+}  // namespace gnomon::trace

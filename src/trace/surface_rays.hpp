@@ -1,0 +1,53 @@
+// The rays of the references: from the eye to a surface, and from a surface to the light.
+#pragma once
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+#include <variant>
+
+#include "gnomon/camera.hpp"
+#include "gnomon/trace/reference.hpp"
+#include "light_ray.hpp"
+
+namespace gnomon::trace {
+
+/// From the eye through a place in the picture, shares of its width from the left and of its height from the
+/// top, between the camera's near and far depth.
+[[nodiscard]] inline Ray eye_ray(const Camera& camera, const CameraAxes& axes, double column_share,
+                                 double row_share) noexcept {
+  const double x = camera.left + (camera.right - camera.left) * column_share,
+               y = camera.top + (camera.bottom - camera.top) * row_share;
+  const glm::dvec3 image = axes.right * x + axes.up * y;
+  // Per unit of view depth, so that t is the depth.
+  Ray ray;
+  ray.origin = camera.orthographic ? camera.position + image : camera.position;
+  ray.direction = camera.orthographic ? axes.forward : axes.forward + image;
+  ray.begin = camera.near_depth;
+  ray.end = camera.far_depth;
+  return ray;
+}
+
+/// The ray from the receiver's plane to the light, along the line through `from`. It starts where that line
+/// leaves the plane, so that the rounding of the picture's position does not matter, and beyond what
+/// the engine may see too early of triangles in the same plane.
+[[nodiscard]] inline Ray ray_off_plane(const SurfacePoint& point, const glm::dvec3& from,
+                                       const glm::dvec3& direction, double distance, double error) noexcept {
+  Ray ray;
+  const double cosine = std::max(glm::dot(point.normal, direction), kGrazingCosine);
+  const double height = point.above + glm::dot(point.normal, from - point.position);
+  const double begin = (error - height) / cosine;
+  ray.origin = from + begin * direction;
+  ray.direction = direction;
+  ray.end = distance - begin;
+  ray.except = point.triangle;
+  return ray;
+}
+
+/// Distance that rays may go before they leave everything: what the engine's error is stated for.
+[[nodiscard]] inline double error_of(const Tracer& tracer, const Light& light,
+                                     const SurfacePoint& point) noexcept {
+  if (std::holds_alternative<DirectionalLight>(light)) return tracer.error_world();
+  return tracer.error_world(light_ray(light, point.position).distance);
+}
+
+}  // namespace gnomon::trace

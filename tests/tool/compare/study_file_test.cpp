@@ -1,0 +1,101 @@
+// `gnomon compare study.json`: one file that is the whole study, and what is wrong with others.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+
+#include "small_sweep.hpp"
+
+namespace gnomon::test {
+namespace {
+
+/// Writes the text as study.json and compares by it.
+Finished compared_by(const TemporaryFolder& folder, const std::string& text,
+                     const std::vector<std::string>& more = {}) {
+  const fs::path file = folder.path() / "study.json";
+  std::ofstream(file) << text;
+  std::vector<std::string> words{"compare", file.string(), "--context",
+                                 "osmesa",  "--out",       (folder.path() / "out").string()};
+  words.insert(words.end(), more.begin(), more.end());
+  return run_gnomon(words);
+}
+
+const std::string kTwoViews =
+    R"({"schema": "gnomon-study/1", "filters": ["hard", "pcf:footprint=1"], "warps": "none",
+  "cascades": 1, "map_sizes": [256], "frames": 1, "rounds": 1, "size": "64x36", "views": [
+    {"scenes": ["builtin:fence", "builtin:hangar"]},
+    {"scenes": "builtin:fence", "eye": "0,20,120", "target": "0,1,0", "filters": ["hard"]}]})";
+
+TEST(StudyFile, measures_every_view_with_its_own_fields_and_is_continued) {
+  const TemporaryFolder folder;
+  const Finished first = compared_by(folder, kTwoViews);
+  ASSERT_EQ(first.exit_code, 0) << first.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path() / "out");
+  ASSERT_EQ(rows.size(), 5u);
+  std::set<std::uint64_t> places;
+  for (const report::Row& row : rows) places.insert(row.index);
+  EXPECT_EQ(places, (std::set<std::uint64_t>{0, 1, 2, 3, 4}));
+  EXPECT_EQ(rows[1].technique.filter, "pcf:footprint=1");
+  EXPECT_EQ(rows[3].scene, "builtin:hangar");
+  EXPECT_EQ(rows[4].camera, "eye 0,20,120 target 0,1,0");
+  ASSERT_TRUE(rows[0].pixel.has_value());
+  EXPECT_GT(rows[0].pixel->pixels, 500u);
+  EXPECT_GT(rows[0].pixel->error, 0.0);
+  EXPECT_GT(rows[0].times.baseline_again_ms, 0.0);
+  // The same scene through two cameras is two scenes to the report.
+  const std::string page = [&] {
+    std::ifstream in(folder.path() / "out/report.html");
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  }();
+  EXPECT_NE(page.find("builtin:fence, eye 0,20,120 target 0,1,0"), std::string::npos);
+  EXPECT_EQ(compared_by(folder, kTwoViews).exit_code, 2) << "results are there already";
+  EXPECT_EQ(compared_by(folder, kTwoViews, {"--resume"}).exit_code, 0);
+  EXPECT_EQ(report::read_rows(folder.path() / "out").size(), 5u);
+}
+
+TEST(StudyFile, is_refused_by_the_field_that_is_wrong) {
+  const struct {
+    const char *text, *names;
+  } cases[] = {
+      {"[]", "study.json: needs an object"},
+      {"{}", "study.json: schema: must be \"gnomon-study/1\""},
+      {R"({"schema": "gnomon-study/1"})", "study.json: scenes: is missing"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fenc"})", "study.json: scenes builtin:fenc"},
+      {R"({"schema": "gnomon-study/1", "views": []})", "study.json: views: needs a list"},
+      {R"({"schema": "gnomon-study/1", "views": [{}]})", "study.json: views[0].scenes: is missing"},
+      {R"({"schema": "gnomon-study/1", "views": [{"scenes": "builtin:fence", "frames": 1.5}]})",
+       "study.json: views[0].frames: needs a whole number"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "filters": ["hard", "pcg"]})",
+       "study.json: filters"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "rounds": 0})",
+       "study.json: rounds: is not from 1"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "visible_depths": "yes"})",
+       "study.json: visible_depths: needs true or false"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "eye": "0,1"})", "study.json: eye"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "eye": "0,1,2"})",
+       "study.json: --eye and --target"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "filter": "hard"})",
+       "did you mean 'filters'"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "out": "x"})",
+       "study.json: out: belongs on the command line"},
+      {R"({"schema": "gnomon-study/1", )", "study.json: "},
+  };
+  for (const auto& [text, names] : cases) {
+    const TemporaryFolder folder;
+    const Finished finished = compared_by(folder, text);
+    EXPECT_EQ(finished.exit_code, 2) << text;
+    EXPECT_NE(finished.err.find(names), std::string::npos) << text << "\n" << finished.err;
+    EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+    EXPECT_FALSE(fs::exists(folder.path() / "out")) << text;
+  }
+}
+
+TEST(StudyFile, takes_no_field_from_the_command_line) {
+  const TemporaryFolder folder;
+  const Finished finished = compared_by(folder, kTwoViews, {"--filters", "hard"});
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_NE(finished.err.find("--filters: not beside a study"), std::string::npos) << finished.err;
+}
+
+}  // namespace
+}  // namespace gnomon::test
