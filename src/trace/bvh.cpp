@@ -227,6 +227,20 @@ Hit Bvh::first_hit(const Ray& ray) const noexcept {
   return best == kNoTriangle ? Hit{} : filled(best, end);
 }
 
+Hit Bvh::first_seen(const Ray& ray) const noexcept {
+  std::uint32_t best = kNoTriangle;
+  double end = ray.end;
+  walk(ray, end, [&](std::uint32_t triangle, double t, double, double) {
+    const WorldTriangles::Corners& c = triangles_.corners[triangle];
+    const double away = glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), ray.direction);
+    if (triangles_.shown_side[triangle] * away > 0.0) return false;
+    best = triangle;
+    end = t;
+    return false;
+  });
+  return best == kNoTriangle ? Hit{} : filled(best, end);
+}
+
 void Bvh::each_hit(const Ray& ray, const std::function<void(std::uint32_t, double, double)>& meet) const {
   double end = ray.end;
   walk(ray, end, [&](std::uint32_t triangle, double, double b1, double b2) {

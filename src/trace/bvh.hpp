@@ -19,6 +19,7 @@ class Bvh {
 
   [[nodiscard]] bool occluded(const Ray& ray) const noexcept;
   [[nodiscard]] Hit first_hit(const Ray& ray) const noexcept;
+  [[nodiscard]] Hit first_seen(const Ray& ray) const noexcept;
   [[nodiscard]] Hit hit_nearest_to(const Ray& ray, double t) const noexcept;
   /// Calls meet(triangle, b1, b2) for every triangle on the ray, in no order; b1 and b2 weigh its second and
   /// third corner there. A triangle on its edge counts as met, so that two may share a point.

@@ -16,7 +16,7 @@ constexpr double kSameNormal = 0.95;
 /// The surface on a ray from the eye; sky where there is none.
 SurfacePoint met_by(const Tracer& tracer, const Ray& ray, const Light& light) noexcept {
   SurfacePoint point;
-  const Hit hit = tracer.first_hit(ray);
+  const Hit hit = tracer.first_seen(ray);
   if (hit.triangle == kNoTriangle) return point;
   point.triangle = hit.triangle;
   point.position = ray.origin + ray.direction * hit.t;

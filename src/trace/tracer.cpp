@@ -65,6 +65,10 @@ Hit Tracer::first_hit(const Ray& ray) const noexcept {
   return impl_->bvh.first_hit(ray);
 }
 
+Hit Tracer::first_seen(const Ray& ray) const noexcept {
+  return impl_->bvh.first_seen(ray);
+}
+
 Hit Tracer::hit_nearest_to(const Ray& ray, double t) const noexcept {
   return impl_->bvh.hit_nearest_to(ray, t);
 }

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
 
 namespace gnomon::trace {
 namespace {
@@ -68,7 +70,10 @@ WorldTriangles::WorldTriangles(const Scene& scene) {
       const Primitive& primitive = scene.primitives[instance.primitive];
       const auto material = static_cast<std::uint32_t>(primitive.material);
       if ((scene.materials[material].alpha_mode != AlphaMode::opaque) != masked) continue;
+      const bool mirrored = glm::determinant(glm::dmat3(instance.world_from_object)) < 0.0;
+      const std::int8_t side = scene.materials[material].double_sided ? 0 : mirrored ? -1 : 1;
       for (std::uint32_t i = 0; i + 2 < primitive.index_count; i += 3) {
+        shown_side.push_back(side);
         std::array<glm::vec2, 3> uv;
         Corners& placed = corners.emplace_back();
         for (std::uint32_t k = 0; k < 3; ++k) {

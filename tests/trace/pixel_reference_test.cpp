@@ -83,13 +83,34 @@ TEST(PixelReference, pixels_of_several_surfaces_have_the_mean_of_what_the_light_
   add_quad(wall, {1.0f / 6, 0, 2}, {0.2f, 1.9f, 0}, {0, 0, -4});  // steep, and in the light as well
   EXPECT_EQ(middle(wall), std::pair(1.0f, std::uint8_t{1}));
   Scene roofed = cut;
-  add_quad(roofed, {1.0f / 6, 0.5f, 2}, {2, 0, 0},
+  add_quad(roofed, {1.0f / 6, 1, 2}, {2, 0, 0},
            {0, 0, -4});  // a step in the light; the ground lies in shadow
   add_quad(roofed, {-40, 4, 40}, {40 + 1.0f / 6, 0, 0}, {0, 0, -80});
   EXPECT_EQ(middle(roofed), std::pair(0.25f, std::uint8_t{1}));
   Scene flat = cut;
   add_quad(flat, {1.0f / 6, 0, 2}, {2, 0, 0}, {0, 0, -4});  // another triangle of the same plane
   EXPECT_EQ(middle(flat), std::pair(1.0f, std::uint8_t{0}));
+}
+
+TEST(PixelReference, looks_through_back_faces_as_a_picture_does) {
+  Scene scene = empty_scene();
+  add_quad(scene, {-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+  const Camera camera = overhead(3);
+  const Tracer ground(scene);
+  const Picture picture = picture_of(ground, camera);
+  // A ceiling that faces down, between the camera and the ground: the picture shows the ground in its shadow.
+  add_quad(scene, {-2, 1, -2}, {4, 0, 0}, {0, 0, 4});
+  const auto light_with = [&](bool double_sided) {
+    scene.materials[0].double_sided = double_sided;
+    const Tracer tracer(scene);
+    return pixel_reference(tracer, camera,
+                           surface_points(tracer, camera, kOverhead, picture.positions, picture.normals),
+                           kOverhead);
+  };
+  const PixelReference one_sided = light_with(false), double_sided = light_with(true);
+  EXPECT_EQ(one_sided.pixels[4], 0.0f);
+  EXPECT_EQ(one_sided.several[4], 0);
+  EXPECT_EQ(double_sided.pixels[4], 1.0f) << "the ceiling's own light";
 }
 
 TEST(PixelReference, is_the_same_in_every_run_and_for_both_engines) {
