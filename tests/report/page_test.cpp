@@ -260,7 +260,7 @@ TEST(Ranks, show_where_two_errors_disagree) {
 TEST(Page, has_views_ranks_and_their_files) {
   const Reported reported(rows_that_disagree());
   for (const char* text : {"Over views", "In how many views", "<b>9 of 10</b>", "Places by each error",
-                           "less than a factor of 1.05", "Which error answers which question"})
+                           "less than a factor of 1.05", "Questions and errors"})
     EXPECT_NE(reported.page.find(text), std::string::npos) << text;
   const std::string csv = text_of(reported.folder.path() / "views.csv");
   EXPECT_EQ(count(csv, "\n"), 3u);

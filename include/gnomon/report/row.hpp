@@ -90,7 +90,7 @@ struct Pictures {
   std::string image, truth, mask, difference, heat;  ///< PNG files
 };
 
-/// Rays of a pixel where none are asked for.
+/// Rays of a pixel by default.
 inline constexpr int kPixelSamples = 16;
 
 /// One technique on one frame of one scene.

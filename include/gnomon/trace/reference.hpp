@@ -82,8 +82,8 @@ struct KernelAxes {
 /// of that radius in the map. Zero where the map is singular.
 [[nodiscard]] KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point,
                                     double radius_texels) noexcept;
-/// Half sides, in texels of the map, of the box that has the variance of a pixel with these half sides on the
-/// surface (facet_axes): FilterLookup::pixel, without a bound.
+/// The box in the map that has the variance of a pixel: its half sides, texels. `facet`: the pixel's half
+/// sides on the surface (facet_axes). FilterLookup::pixel, without a bound.
 [[nodiscard]] glm::dvec2 pixel_in_texels(const ShadowMap& map, const glm::dvec3& point,
                                          const KernelAxes& facet) noexcept;
 /// Two axes of this length across the light at a point, world units.
@@ -121,9 +121,9 @@ struct PixelReference {
   std::vector<std::uint8_t> several;
 };
 /// `samples` rays from the eye through each pixel, and one to the light from each surface that they meet.
-/// The samples are stratified, the same in every run. Surfaces that face away from the light, lie beyond it
-/// or are grazed by it have no part in the share: no shadow map decides there. Pixels of several surfaces
-/// have the mean of all that the light can reach. `points` are those of surface_points through `camera`.
+/// The samples are stratified, the same in every run. Surfaces have no part in the share where no map
+/// decides: they face away from the light, lie beyond it or are grazed by it. Pixels of several surfaces have
+/// the mean of all that the light can reach. `points` are those of surface_points through `camera`.
 [[nodiscard]] PixelReference pixel_reference(const Tracer& tracer, const Camera& camera,
                                              const SurfacePoints& points, const Light& light,
                                              int samples = kSoftSamples);

@@ -1,4 +1,4 @@
-// Do two errors rank the techniques alike? Which question does each error answer?
+// Do two errors rank the techniques alike, and what is each of them for?
 #include "ranks.hpp"
 
 #include <algorithm>
@@ -108,15 +108,14 @@ std::string rank_part(const Summary& summary, std::size_t first_scene) {
   for (std::size_t scene = first_scene; scene < summary.scenes.size(); ++scene)
     any = any || has_pixel_errors(summary, scene);
   if (!any) return {};
-  std::string out = "<h3>Which error answers which question</h3>\n" +
-                    scroll_box("Which error answers which question") +
+  std::string out = "<h3>Questions and errors</h3>\n" + scroll_box("Questions and errors") +
                     "<table class=\"words\"><thead><tr><th>error</th><th>question</th></tr></thead><tbody>\n";
   for (const Answer& answer : kAnswers)
     out +=
         "<tr><td>" + std::string(answer.error) + "</td><td>" + std::string(answer.question) + "</td></tr>\n";
   out +=
       "</tbody></table></div>\n<h3>Places by each error</h3>\n<p class=\"note\">1 is the least error. Where "
-      "the places of two errors differ, they answer different questions.</p>\n";
+      "the places of two errors differ, they belong to different questions.</p>\n";
   for (std::size_t scene = first_scene; scene < summary.scenes.size(); ++scene) {
     if (!has_pixel_errors(summary, scene)) continue;
     out += "<div class=\"by-scene\" data-scene=\"" + std::to_string(scene) + "\">\n<p><b>" +

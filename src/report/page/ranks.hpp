@@ -1,4 +1,4 @@
-// Do two errors rank the techniques alike? Which question does each error answer?
+// Do two errors rank the techniques alike, and what is each of them for?
 #pragma once
 
 #include <string>
@@ -19,7 +19,7 @@ inline constexpr std::string_view kRankedErrors[] = {"wrong", "pixel_error", "tw
 [[nodiscard]] double rank_agreement(const Summary& summary, std::size_t scene, std::string_view measure,
                                     std::string_view other);
 
-/// Heading, what each error answers, and a table of places per scene; empty where no row has a pixel error.
+/// Heading, the question of each error, and a table of places per scene; empty where no row has a pixel error.
 [[nodiscard]] std::string rank_part(const Summary& summary, std::size_t first_scene);
 /// The agreement of a scene as a sentence in Markdown; empty where no row has a pixel error.
 [[nodiscard]] std::string rank_line(const Summary& summary, std::size_t scene);

@@ -32,13 +32,20 @@ std::vector<std::size_t> by_median(const ViewTable& table, const Summary& summar
   return techniques;
 }
 
-/// The best of each filter.
+/// The best of each filter, of the techniques that the most views have: others are of other views.
 std::vector<std::size_t> best_of_filters(const ViewTable& table, const Summary& summary) {
   constexpr std::size_t kMost = 12;
+  const auto& errors = table.values[place_in(table.error)];
+  const auto views_of = [&](std::size_t t) {
+    return std::count_if(errors[t].begin(), errors[t].end(), [](double v) { return std::isfinite(v); });
+  };
+  std::ptrdiff_t most = 0;
+  for (std::size_t t = 0; t < errors.size(); ++t) most = std::max(most, views_of(t));
   std::vector<std::size_t> best;
   std::set<std::string> seen;
   for (const std::size_t t : by_median(table, summary))
-    if (best.size() < kMost && seen.insert(summary.techniques[t].filter).second) best.push_back(t);
+    if (views_of(t) == most && best.size() < kMost && seen.insert(summary.techniques[t].filter).second)
+      best.push_back(t);
   return best;
 }
 
