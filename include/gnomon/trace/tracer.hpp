@@ -69,8 +69,7 @@ class Tracer {
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> out) const;
   /// By our own hierarchy, in double, whichever the engine: what a ray meets first.
   [[nodiscard]] Hit first_hit(const Ray& ray) const noexcept;
-  /// The same, without the back faces that a picture does not show: those of materials that are not
-  /// double-sided. What a pixel shows.
+  /// The same for what a picture shows: without back faces, unless their material is double-sided.
   [[nodiscard]] Hit first_seen(const Ray& ray) const noexcept;
   /// As first_hit, but the hit whose t is nearest to `t`.
   [[nodiscard]] Hit hit_nearest_to(const Ray& ray, double t) const noexcept;
