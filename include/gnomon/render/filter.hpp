@@ -92,11 +92,11 @@ struct FilterLookup {
   std::function<glm::dvec2(int x, int y)> silhouette;
   /// Largest depth within the kernel of the stored texels, for filters that need it.
   double depth_max = 1.0;
-  glm::dvec2 position{0.0};        ///< in texels: the centre of texel i is at i + 0.5
-  double depth = 0.0;              ///< of the receiver, 0 near the light .. 1, bias already taken off
-  glm::dvec2 depth_gradient{0.0};  ///< change of the receiver plane's depth per texel along x and y
-  glm::dvec2 box{0.5};             ///< half sides of the kernel as a box, texels
-  glm::dmat2 disc{1.0};            ///< the kernel as an ellipse: texels from the unit disc
+  glm::dvec2 position{0.0};          ///< in texels: the centre of texel i is at i + 0.5
+  double depth = 0.0;                ///< of the receiver, 0 near the light .. 1, bias already taken off
+  glm::dvec2 depth_gradient{0.0};    ///< change of the receiver plane's depth per texel along x and y
+  glm::dvec2 box{0.5};               ///< half sides of the kernel as a box, texels
+  glm::dmat2 disc{1.0};              ///< the kernel as an ellipse: texels from the unit disc
   glm::dmat2 texels_per_world{1.0};  ///< texels per world unit across the light, along two axes of a basis
   /// Distance from the receiver towards the light to where the map's depth is d. It is (x - d y) / (z - d w)
   /// world units, with this vector's x, y, z, w. Exact along the receiver's own ray.

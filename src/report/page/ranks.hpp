@@ -19,7 +19,8 @@ inline constexpr std::string_view kRankedErrors[] = {"wrong", "pixel_error", "tw
 [[nodiscard]] double rank_agreement(const Summary& summary, std::size_t scene, std::string_view measure,
                                     std::string_view other);
 
-/// Heading, the question of each error, and a table of places per scene; empty where no row has a pixel error.
+/// Heading, the question of each error, and a table of places per scene; empty where no row has a pixel
+/// error.
 [[nodiscard]] std::string rank_part(const Summary& summary, std::size_t first_scene);
 /// The agreement of a scene as a sentence in Markdown; empty where no row has a pixel error.
 [[nodiscard]] std::string rank_line(const Summary& summary, std::size_t scene);
