@@ -166,8 +166,8 @@ struct LightPlan {
 /// whose error falls most per millisecond. A budget in which not even the smallest maps of all lights fit is
 /// refused.
 ///
-/// A light that is due is planned by make_plan with light_options and the camera, or with camera_round for
-/// a light of several frames. Its maps must serve what later frames see.
+/// A due light is planned by make_plan with light_options and the view with its points, or with
+/// camera_round for a light of several frames. Its maps must serve what later frames see.
 ///
 /// With View::points_world, shares and errors are those of these points; without, rays are sampled through
 /// the receivers' boxes. Takes time in proportion to lights times points, and to lights times boxes where

@@ -7,9 +7,11 @@
 #include <cstring>
 #include <functional>
 #include <iostream>
+#include <limits>
 #include <new>
 #include <vector>
 
+#include "gnomon/extend/shape.hpp"
 #include "gnomon/gnomon.hpp"
 
 namespace gnomon::test {
@@ -36,7 +38,7 @@ constexpr bool kOptimized = false;
 
 // docs/performance.md states these.
 constexpr std::size_t kKilo = 1024;
-constexpr std::size_t kMeasure = 64 * kKilo, kPlan = 192 * kKilo, kPlanOfParts = 320 * kKilo;
+constexpr std::size_t kMost = 64 * kKilo, kFocus = 12 * kKilo, kViews = 100 * kKilo;
 
 /// Bytes of a painted stack that a call touches, less those of a thread that does nothing.
 std::size_t touched(const std::function<void()>& call) {
@@ -91,7 +93,7 @@ class Stack : public testing::Test {
   alignas(ShadowPlan) std::array<std::byte, sizeof(ShadowPlan)> place_{};
 };
 
-TEST_F(Stack, make_plan_and_plan_views) {
+TEST_F(Stack, make_plan_with_every_partition_fit_and_warp) {
   for (const Light& light : lights_) {
     for (const Partition partition :
          {Partition::view_depth, Partition::frustum_faces, Partition::separating_plane,
@@ -105,17 +107,67 @@ TEST_F(Stack, make_plan_and_plan_views) {
           options.warp.warp = warp;
           PlanHistory history;
           const View view{.camera = camera_, .points_world = points_};
-          const std::size_t most =
-              partition == Partition::view_depth || &light != &lights_[0] ? kPlan : kPlanOfParts;
-          expect("make_plan", most,
+          expect("make_plan", kMost,
                  [&] { new (&place_) ShadowPlan(make_plan(view, light, bounds_, options)); });
-          expect("with a history", most,
+          expect("with a history", kMost,
                  [&] { new (&place_) ShadowPlan(make_plan(camera_, light, bounds_, options, &history)); });
         }
       }
     }
+  }
+}
+
+TEST_F(Stack, make_plan_with_every_shape_split_and_objective) {
+  for (const Light& light : lights_) {
+    for (const Shape* shape : all_shapes()) {
+      for (const Objective objective :
+           {Objective::storage, Objective::max, Objective::p95, Objective::picture}) {
+        for (const SplitScheme scheme : {SplitScheme::automatic, SplitScheme::optimal}) {
+          PlanOptions options;
+          options.cascades = 3;
+          options.warp.shape = shape;
+          options.warp.objective = objective;
+          options.split.scheme = scheme;
+          expect("make_plan", kMost,
+                 [&] { new (&place_) ShadowPlan(make_plan(camera_, light, bounds_, options)); });
+          const View view{.camera = camera_, .points_world = points_};
+          expect("of points", kMost,
+                 [&] { new (&place_) ShadowPlan(make_plan(view, light, bounds_, options)); });
+        }
+      }
+    }
+  }
+}
+
+TEST_F(Stack, make_plan_with_rare_options) {
+  for (const Light& light : lights_) {
+    for (const Partition partition : {Partition::view_depth, Partition::frustum_faces,
+                                      Partition::separating_plane, Partition::receiver_clusters}) {
+      for (int rare = 0; rare < 8; ++rare) {
+        PlanOptions options;
+        options.split.partition = partition;
+        options.split.face_slices = 4;
+        options.warp.objective = rare % 2 == 0 ? Objective::picture : Objective::storage;
+        if (rare == 1) options.split.pseudo_near = 3.0;
+        if (rare == 2) options.resolution.max_error = 2.0;
+        if (rare == 3) options.resolution.texel_budget = 1 << 20;
+        if (rare == 4) options.filter.world = 0.2;
+        if (rare == 5) options.split.selection = MapSelection::finest;
+        if (rare == 6) options.prune = kPruneNothing;
+        if (rare == 7) options.warp.focus = {{-4, 0, -8}, {4, 3, 0}};
+        Camera camera = camera_;
+        if (rare == 0) camera.far_depth = std::numeric_limits<double>::infinity();
+        expect("make_plan", rare == 7 ? kMost + kFocus : kMost,
+               [&] { new (&place_) ShadowPlan(make_plan(camera, light, bounds_, options)); });
+      }
+    }
+  }
+}
+
+TEST_F(Stack, plan_views) {
+  for (const Light& light : lights_) {
     const std::vector<Camera> cameras(kMaxViews, camera_);
-    expect("plan_views", kPlan, [&] { new (&place_) ShadowPlan(plan_views(cameras, light, bounds_)); });
+    expect("plan_views", kViews, [&] { new (&place_) ShadowPlan(plan_views(cameras, light, bounds_)); });
   }
 }
 
@@ -124,10 +176,10 @@ TEST_F(Stack, measure) {
     const ShadowPlan plan = make_plan(camera_, light, bounds_);
     ASSERT_EQ(plan.status, PlanStatus::ok);
     AliasingStats stats;
-    expect("measure", kMeasure, [&] { stats = measure(plan, camera_, bounds_); });
+    expect("measure", kMost, [&] { stats = measure(plan, camera_, bounds_); });
     EXPECT_GT(stats.samples, 1000u);
     const View view{.camera = camera_, .points_world = points_};
-    expect("measure at points", kMeasure, [&] { stats = measure(plan, view, bounds_); });
+    expect("measure at points", kMost, [&] { stats = measure(plan, view, bounds_); });
   }
 }
 
@@ -146,15 +198,15 @@ TEST_F(Stack, plan_pages_and_their_measure) {
         alignas(PagePlan) std::array<std::byte, sizeof(PagePlan)> place;
         const auto* const plan = reinterpret_cast<const PagePlan*>(place.data());
         PageStats stats;
-        expect("plan_pages of boxes", kPlan,
+        expect("plan_pages of boxes", kMost,
                [&] { new (&place) PagePlan(plan_pages(camera_, light, bounds_, options, memory)); });
-        expect("plan_pages", kPlan,
+        expect("plan_pages", kMost,
                [&] { new (&place) PagePlan(plan_pages(view, light, bounds_, options, memory)); });
         if (plan->status != PlanStatus::ok) continue;  // points that the spot does not light
         ++measured;
-        expect("measure", kMeasure, [&] { stats = measure(*plan, view, bounds_); });
+        expect("measure", kMost, [&] { stats = measure(*plan, view, bounds_); });
         EXPECT_GT(stats.m.samples, 100u);
-        expect("measure of boxes", kMeasure, [&] { stats = measure(*plan, camera_, bounds_); });
+        expect("measure of boxes", kMost, [&] { stats = measure(*plan, camera_, bounds_); });
       }
     }
   }
@@ -169,7 +221,7 @@ TEST_F(Stack, plan_lights) {
     std::vector<std::byte> memory(light_memory(requests.size(), points_.size()));
     alignas(LightPlan) std::array<std::byte, sizeof(LightPlan)> place;
     const View view{.camera = camera_, .points_world = points_};
-    expect("plan_lights", kPlan,
+    expect("plan_lights", kMost,
            [&] { new (&place) LightPlan(plan_lights(view, requests, bounds_, {}, memory)); });
     EXPECT_EQ(reinterpret_cast<const LightPlan*>(place.data())->status, PlanStatus::ok);
   }

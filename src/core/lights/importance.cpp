@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <new>
 
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
@@ -312,11 +313,12 @@ Coverage cover_points(const LightView& view, const LocalLight& light, const Poly
   return {0.5 / count, mean_of_corners(view, light, body)};
 }
 
-/// Shares and errors of all cascades of a sun, which is planned for that at the least size.
-LightImportance sun_importance(const LightView& view, const Light& light) noexcept {
-  PlanOptions options = view.options;
+/// Shares and errors of all cascades of a sun, which is planned for that at the least size. Out of line: the
+/// plan need not make room for what local lights take.
+[[gnu::noinline]] LightImportance sun_importance(const LightView& view, const Light& light) noexcept {
+  const PlanOptions& options = view.options;
   const View seen{.camera = view.camera, .points_world = view.points_world};
-  const ShadowPlan plan = make_plan(seen, light, view.bounds, options);
+  const ShadowPlan& plan = *::new (view.sun) ShadowPlan(make_plan(seen, light, view.bounds, options));
   LightImportance out;
   if (plan.status == PlanStatus::no_caster) out.outcome = LightOutcome::without_caster;
   if (plan.status != PlanStatus::ok) return out;
@@ -349,11 +351,11 @@ LightImportance sun_importance(const LightView& view, const Light& light) noexce
 }  // namespace
 
 LightView light_view(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options,
-                     std::span<const glm::dvec3> points_world, std::span<LightPoint> memory) noexcept {
+                     std::span<const glm::dvec3> points_world, std::span<LightPoint> memory, Polytope& body,
+                     ShadowPlan* sun) noexcept {
   const CameraAxes axes = camera_axes(camera);
-  LightView view{
-      camera, bounds, options, axes,         frustum_slice(camera, axes, camera.near_depth, camera.far_depth),
-      {},     false,  {},      points_world, 1.0};
+  body = frustum_slice(camera, axes, camera.near_depth, camera.far_depth);
+  LightView view{camera, bounds, options, axes, body, {}, false, {}, points_world, 1.0, sun};
   view.box = bounds_of(view.body);
   const Boxes &c = bounds.casters, &r = bounds.receivers;
   view.one_list = c.set() == r.set() && c.list().data() == r.list().data() && c.size() == r.size();
@@ -372,8 +374,9 @@ LightView light_view(const Camera& camera, const SceneBounds& bounds, const Plan
   return view;
 }
 
-LightImportance importance_of(const LightView& view, const Light& light) noexcept {
-  if (std::holds_alternative<DirectionalLight>(light)) return sun_importance(view, light);
+namespace {
+
+[[gnu::noinline]] LightImportance local_importance(const LightView& view, const Light& light) noexcept {
   const LocalLight local = local_light(light, view.options, view.camera.position);
   LightImportance out;
   // As make_plan: a range that is rounding of the position lights no pixel.
@@ -399,6 +402,13 @@ LightImportance importance_of(const LightView& view, const Light& light) noexcep
   out.share = min_of(seen.share, 1.0);
   out.demand = 2.0 * local.slope * pixels_per_slope(view.camera) * seen.mean;
   return out;
+}
+
+}  // namespace
+
+LightImportance importance_of(const LightView& view, const Light& light) noexcept {
+  return std::holds_alternative<DirectionalLight>(light) ? sun_importance(view, light)
+                                                         : local_importance(view, light);
 }
 
 }  // namespace gnomon

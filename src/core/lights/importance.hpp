@@ -20,18 +20,19 @@ struct LightView {
   const SceneBounds& bounds;
   const PlanOptions& options;
   CameraAxes axes;
-  Polytope body;  // the frustum, relative to the eye
-  Box box;        // round it
-  bool one_list;  // casters and receivers are the same boxes
+  const Polytope& body;  // the frustum, relative to the eye
+  Box box;               // round it
+  bool one_list;         // casters and receivers are the same boxes
   // Visible points relative to the eye in units of `unit`, a power of two; empty: unknown.
   std::span<const LightPoint> points;
   std::span<const glm::dvec3> points_world;
   double unit;
+  ShadowPlan* sun;  // where the plan of a sun is made: it is long
 };
-/// Fills `memory`, which holds as many as there are points.
+/// Fills `memory`, which holds as many as there are points, and `body`. `sun`: room for a plan.
 [[nodiscard]] LightView light_view(const Camera& camera, const SceneBounds& bounds,
                                    const PlanOptions& options, std::span<const glm::dvec3> points_world,
-                                   std::span<LightPoint> memory) noexcept;
+                                   std::span<LightPoint> memory, Polytope& body, ShadowPlan* sun) noexcept;
 
 /// The importance of one light.
 struct LightImportance {

@@ -67,12 +67,18 @@ struct LightMemory {
   std::span<LightWork> work;     // one for each light
   std::span<LightPlace> places;  // kMaxMaps for each light
   std::span<LightPoint> points;  // one for each visible point
+  std::span<Polytope> view;      // one
+  std::span<ShadowPlan> sun;     // one, of the sun that is looked at
 };
 
 LightMemory parts_of(std::span<std::byte> memory, std::size_t lights, std::size_t points) noexcept {
   MemoryParts parts(memory);
-  return {parts.take<LightMaps>(lights), parts.take<LightWork>(lights),
-          parts.take<LightPlace>(kMaxMaps * lights), parts.take<LightPoint>(points)};
+  return {parts.take<LightMaps>(lights),
+          parts.take<LightWork>(lights),
+          parts.take<LightPlace>(kMaxMaps * lights),
+          parts.take<LightPoint>(points),
+          parts.take<Polytope>(1),
+          parts.take<ShadowPlan>(1)};
 }
 
 std::string_view invalid_request(const LightRequest& request) noexcept {
@@ -364,7 +370,8 @@ void forget_other_pool(const LightOptions& now, int least, LightHistory& history
 
 std::size_t light_memory(std::size_t lights, std::size_t points) noexcept {
   return kMemorySlack + memory_of<LightMaps>(lights) + memory_of<LightWork>(lights) +
-         memory_of<LightPlace>(kMaxMaps * lights) + memory_of<LightPoint>(points);
+         memory_of<LightPlace>(kMaxMaps * lights) + memory_of<LightPoint>(points) + memory_of<Polytope>(1) +
+         memory_of<ShadowPlan>(1);
 }
 
 LightPlan plan_lights(const View& view, std::span<const LightRequest> lights, const SceneBounds& bounds,
@@ -387,7 +394,8 @@ LightPlan plan_lights(const View& view, std::span<const LightRequest> lights, co
   const SizeLadder ladder{least, level_of(options.least_size, least), level_of(options.most_size, least),
                           std::ceil(options.plan.filter.texels)};
   LightPlanner planner(lights, options, ladder, parts, history, plan);
-  planner.weigh(light_view(finite, bounds, reference, view.points_world, parts.points));
+  planner.weigh(light_view(finite, bounds, reference, view.points_world, parts.points, parts.view.front(),
+                           parts.sun.data()));
   if (const std::string_view too_small = planner.size(); !too_small.empty()) {
     plan = {};
     plan.invalid_field = too_small;

@@ -129,12 +129,9 @@ PlaneMap chosen_warp(const PlanContext& c, const MapRequest& request, const Ligh
 
 /// The best map of the plane, or the steady way there.
 PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const LightBody& body,
-                      MapResult& result) noexcept {
-  const bool warped = !is_unwarped(request.warp);
-  if (!warped && !c.how.rotated && !c.how.steady) return body.under(request.unwarped);
-  WarpQuestion question(c, request, body);
+                      WarpQuestion& question, MapResult& result) noexcept {
   WarpStart start;
-  const bool follows = c.how.steady && warped && request.warp.follows_start;
+  const bool follows = c.how.steady && !is_unwarped(request.warp) && request.warp.follows_start;
   if (follows && find_start(c, request, question, start)) question.in.start = &start;
   PlaneMap plane = chosen_warp(c, request, body, question, result);
   if (follows) result.searched = searched_warp(c, request, plane);
@@ -142,6 +139,16 @@ PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request, const Lig
   if (c.how.steady) return steady_plane(c, request, question, plane, result);
   limit_to_shape(c, question.in.body, plane);
   return plane;
+}
+
+/// The same. This and others below are out of line: together they would take more stack than any of them, and
+/// searches go deep.
+[[gnu::noinline]] PlaneMap chosen_plane(const PlanContext& c, const MapRequest& request,
+                                        const LightBody& body, MapResult& result) noexcept {
+  if (is_unwarped(request.warp) && !c.how.rotated && !c.how.steady) return body.under(request.unwarped);
+  return with_question(c, request, body, [&](WarpQuestion& question) {
+    return chosen_plane(c, request, body, question, result);
+  });
 }
 
 /// The objective by what vertices need.
@@ -206,28 +213,24 @@ glm::dmat4 clip_from_light(const ShadowMap& map, const Fitted& fitted) noexcept 
   return clip_from_light(fitted.plane, fitted.depths, border);
 }
 
-/// All that a local light's frustum shows, for a grid that does not follow the view.
-LightBody whole_frustum(const MapRequest& request, const LightBody& body) noexcept {
-  LightBody whole;
-  whole.nearest = body.nearest;
-  whole.farthest = body.farthest;
+/// Makes the body all that a local light's frustum shows, for a grid that does not follow the view.
+void fill_frustum(const MapRequest& request, LightBody& body) noexcept {
   double depth = 0.0, height = body.point[0].z;
   for (const WarpInput::Point& p : body.points()) {
     if (std::isfinite(p.depth)) depth = max_of(depth, p.depth);
     height = min_of(height, p.z);
   }
+  body.count = 0;
   for (int i = 0; i < 4; ++i) {
-    whole.point[static_cast<std::size_t>(whole.count++)] = {
+    body.point[static_cast<std::size_t>(body.count++)] = {
         (i & 1) ? request.slope : -request.slope, (i & 2) ? request.slope : -request.slope, height, depth};
   }
-  whole.bounds = bounds_of(whole.points());
-  return whole;
+  body.bounds = bounds_of(body.points());
 }
 
 /// The last frame's map where it still serves: view inside, casters inside.
 bool cached_from_before(const PlanContext& c, const MapRequest& request, const LightBody& body,
                         ShadowMap& map, Fitted& fitted) noexcept {
-  if (!c.how.caches_maps || !c.same_light || !has_cached(request)) return false;
   const PlanHistory::Map& last = *request.last;
   const CachedMap cached = cached_map(c, request, body);
   const double share = border_share(c, request, body, cached.plane);
@@ -247,10 +250,27 @@ bool cached_from_before(const PlanContext& c, const MapRequest& request, const L
   return true;
 }
 
+/// What the map shows of casters and depths.
+[[gnu::noinline]] void fit_depths(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                                  const ShadowMap& map, Fitted& fitted) noexcept {
+  const ServedBody served(c, request, body, fitted.plane);
+  const MapBorder border = border_of_body(map, fitted);
+  sweep_for(c, served.request(), served.points(), fitted.plane, border, fitted.swept);
+  fitted.heights = height_range(c, served.request(), {served.points(), fitted.plane, fitted.swept, border});
+  const double extent =
+      max_of(fitted.plane.a_max - fitted.plane.a_min, fitted.plane.b_max - fitted.plane.b_min);
+  fitted.depths = request.space.perspective ? LightDepths{fitted.heights.bottom, fitted.heights.height}
+                                            : padded(fitted.heights.bottom, fitted.heights.height, extent);
+  if (c.how.caches_maps) {
+    fitted.depths.bottom -= kRoom * fitted.depths.height;
+    fitted.depths.height *= 1.0 + 2.0 * kRoom;
+  }
+}
+
+/// Fits the rest to the plane.
 void fit(const PlanContext& c, const MapRequest& request, const LightBody& body, double obliquity,
          MapResult& result, Fitted& fitted) noexcept {
   ShadowMap& map = result.map;
-  fitted.plane = chosen_plane(c, request, body, result);
   widen_for_floats(request, body, fitted.plane);
   if (c.how.caches_maps) grow(fitted.plane, kRoom);
   if (c.how.has_history && !c.how.stable) {
@@ -275,18 +295,7 @@ void fit(const PlanContext& c, const MapRequest& request, const LightBody& body,
     result.omit({OmissionKind::resolution_without_gain, request.slot.cascade, size.full_error,
                  fitted.needed.bound(inside, obliquity), saved});
   }
-  const ServedBody served(c, request, body, fitted.plane);
-  const MapBorder border = border_of_body(map, fitted);
-  sweep_for(c, served.request(), served.points(), fitted.plane, border, fitted.swept);
-  fitted.heights = height_range(c, served.request(), {served.points(), fitted.plane, fitted.swept, border});
-  const double extent =
-      max_of(fitted.plane.a_max - fitted.plane.a_min, fitted.plane.b_max - fitted.plane.b_min);
-  fitted.depths = request.space.perspective ? LightDepths{fitted.heights.bottom, fitted.heights.height}
-                                            : padded(fitted.heights.bottom, fitted.heights.height, extent);
-  if (c.how.caches_maps) {
-    fitted.depths.bottom -= kRoom * fitted.depths.height;
-    fitted.depths.height *= 1.0 + 2.0 * kRoom;
-  }
+  fit_depths(c, request, body, map, fitted);
 }
 
 /// Distance along the light from the map's near to its far plane.
@@ -305,17 +314,11 @@ void write_snap_key(const Fitted& fitted, ShadowMap& map) noexcept {
   map.snap_key.valid = true;
 }
 
-}  // namespace
-
-void focused_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
+/// From what was fitted to the map. `cached`: it is the last frame's.
+[[gnu::noinline]] void complete(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                                double obliquity, bool cached, const Fitted& fitted,
+                                MapResult& result) noexcept {
   ShadowMap& map = result.map;
-  begin_record(c, request, map);
-  LightBody body = in_light_space(c, request);
-  if (c.how.stable) body = whole_frustum(request, body);
-  const double obliquity = pixel_obliquity(c, request.body);
-  Fitted fitted;
-  const bool cached = cached_from_before(c, request, body, map, fitted);
-  if (!cached) fit(c, request, body, obliquity, result, fitted);
   if (!fitted.heights.has_casters && !request.without_casters) return;
   result.drawn = true;
   if (fitted.heights.too_near > 0)
@@ -351,6 +354,36 @@ void focused_map(const PlanContext& c, const MapRequest& request, MapResult& res
     result.gl_from_world = request.last->gl_from_world;
     map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
   }
+}
+
+/// The last frame's map where it still serves; false where it does not.
+[[gnu::noinline]] bool take_cached(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                                   double obliquity, MapResult& result) noexcept {
+  Fitted fitted;
+  if (!cached_from_before(c, request, body, result.map, fitted)) return false;
+  complete(c, request, body, obliquity, true, fitted, result);
+  return true;
+}
+
+[[gnu::noinline]] void fit_to_plane(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                                    const PlaneMap& plane, double obliquity, MapResult& result) noexcept {
+  Fitted fitted;
+  fitted.plane = plane;
+  fit(c, request, body, obliquity, result, fitted);
+  complete(c, request, body, obliquity, false, fitted, result);
+}
+
+}  // namespace
+
+void focused_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
+  begin_record(c, request, result.map);
+  LightBody body = in_light_space(c, request);
+  if (c.how.stable) fill_frustum(request, body);
+  const double obliquity = pixel_obliquity(c, request.body);
+  const bool may_stay = c.how.caches_maps && c.same_light && has_cached(request);
+  if (may_stay && take_cached(c, request, body, obliquity, result)) return;
+  const PlaneMap plane = chosen_plane(c, request, body, result);
+  fit_to_plane(c, request, body, plane, obliquity, result);
 }
 
 }  // namespace gnomon

@@ -16,11 +16,18 @@ namespace gnomon {
 namespace {
 
 /// The objective with the choice over that without; infinite where it is not known.
-double sampled_ratio(const WarpInput& in, const WarpChoice& choice, bool inside, int set) noexcept {
-  PlaneError error(in, inside, set);
+[[gnu::noinline]] double sampled_ratio(const WarpInput& in, const WarpChoice& choice, bool inside,
+                                       int set) noexcept {
+  const PlaneError error(in, inside, set);
   const double without = error.value(in.unwarped);
   const bool known = without > 0.0 && std::isfinite(without);
   return known ? error.value(choice) / without : std::numeric_limits<double>::infinity();
+}
+
+/// The objective under the choice. Out of line: what is searched before and after it need not make room for
+/// its samples.
+[[gnu::noinline]] double error_under(const WarpInput& in, const WarpChoice& choice) noexcept {
+  return PlaneError(in).value(choice);
 }
 
 /// Pixels whose sides differ by no more than this factor count as square.
@@ -143,30 +150,39 @@ bool pays(const Warp& warp, const WarpChoice& choice, double ratio) noexcept {
          (ratio < 1.0 - kLeastWarpGain || (!warp.drop_without_gain && choice.kappa > 0.0));
 }
 
-FocusedObjective focused_objective(const PlanContext& c, const MapRequest& request) noexcept {
-  const LightBody body = in_light_space(c, request);
-  const WarpQuestion question(c, request, body);
+namespace {
+
+FocusedObjective objective_of(const PlanContext& c, const MapRequest& request,
+                              const WarpQuestion& question) noexcept {
   const WarpInput& in = question.in;
   const WarpChoice choice = request.warp.choose(in);
-  PlaneError error(in);
-  const double inner = error.value(in.unwarped);
+  const double inner = error_under(in, in.unwarped);
   const double without = inner * border_factor(c, request, question, in.unwarped);
   if (in.is_unwarped(choice)) return {without, without};
   const double ratio = gain_ratio(c, request, question, choice);
   if (!pays(request.warp, choice, ratio)) return {without, without};
   const bool rotated = c.how.rotated;
   const WarpChoice drawn = rotated ? turned_to_least_area(in, choice) : choice;
-  const double with = drawn.gain_ratio > 0.0 ? drawn.gain_ratio * inner : error.value(drawn);
+  const double with = drawn.gain_ratio > 0.0 ? drawn.gain_ratio * inner : error_under(in, drawn);
   return {with * border_factor(c, request, question, drawn), without};
+}
+
+}  // namespace
+
+FocusedObjective focused_objective(const PlanContext& c, const MapRequest& request) noexcept {
+  const LightBody body = in_light_space(c, request);
+  return with_question(c, request, body,
+                       [&](const WarpQuestion& question) { return objective_of(c, request, question); });
 }
 
 PlaneMap focused_plane(const PlanContext& c, const MapRequest& request) noexcept {
   const LightBody body = in_light_space(c, request);
-  const WarpQuestion question(c, request, body);
-  const WarpInput& in = question.in;
-  const WarpChoice choice = request.warp.choose(in);
-  const double ratio = gain_ratio(c, request, question, choice);
-  return plane_map(in.body, pays(request.warp, choice, ratio) ? choice : in.unwarped);
+  return with_question(c, request, body, [&](const WarpQuestion& question) {
+    const WarpInput& in = question.in;
+    const WarpChoice choice = request.warp.choose(in);
+    const double ratio = gain_ratio(c, request, question, choice);
+    return plane_map(in.body, pays(request.warp, choice, ratio) ? choice : in.unwarped);
+  });
 }
 
 }  // namespace gnomon

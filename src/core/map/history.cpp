@@ -127,14 +127,19 @@ Change change_between(const Homography& before, const Homography& now, std::span
   return {elementary::log(area * (low * low * low)), elementary::log(area * (high * high * high))};
 }
 
+/// By samples. Out of line: the walk need not make room for them.
+[[gnu::noinline]] bool is_near_by_samples(const WarpInput& in, const WarpChoice& last, const WarpChoice& goal,
+                                          double near) noexcept {
+  const PlaneError error(in);
+  return error.value(last) <= error.value(goal) * near;
+}
+
 /// The last frame's map, now `last`, is hardly worse than `goal`.
 bool is_near_best(const WarpInput& in, const WarpChoice& last, const WarpChoice& goal) noexcept {
   constexpr double kNear = 1.0 + kWorthFollowing;
   if (goal.last_ratio > 0.0 && goal.gain_ratio > 0.0) return goal.last_ratio <= goal.gain_ratio * kNear;
-  if (in.objective == Objective::p95 || in.objective == Objective::picture) {
-    PlaneError error(in);
-    return error.value(last) <= error.value(goal) * kNear;
-  }
+  if (in.objective == Objective::p95 || in.objective == Objective::picture)
+    return is_near_by_samples(in, last, goal, kNear);
   // Two maps so much alike are told apart by what vertices need.
   const auto objective = [&](const WarpChoice& choice) {
     TexelsNeeded needed;

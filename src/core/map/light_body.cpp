@@ -280,13 +280,14 @@ LightBody judged_body(const PlanContext& c, const MapRequest& request, Polytope&
   return points;
 }
 
-WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept
-    : points(c.options.warp.focus.empty() ? body : judged = judged_body(c, request, focus)), in{} {
+WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                           WarpFocus* focus) noexcept
+    : points(focus == nullptr ? body : focus->judged = judged_body(c, request, focus->part)), in{} {
   const LightFrame& frame = request.space.frame;
   // Parallel light's points are the vertices, and those of a focus or a cut behind them.
   const bool known = !request.space.perspective && request.viewed.empty();
   turn(request.body, frame, known ? points.points() : std::span<const WarpInput::Point>(), body_light);
-  if (!focus.empty()) turn(Polytope(focus), frame, {}, focus);
+  if (focus != nullptr && !focus->part.empty()) turn(Polytope(focus->part), frame, {}, focus->part);
   in.body = points.points();
   in.y_min = points.bounds.y_min;
   in.y_max = points.bounds.y_max;
@@ -320,7 +321,7 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
   in.seen = seen_inside(c, request, in.depth_begin, seen);
   if (in.objective == Objective::picture && in.seen.size() < SeenPoints::kFewest)
     in.objective = Objective::storage;
-  in.focus = &focus;
+  in.focus = focus == nullptr ? nullptr : &focus->part;
   in.focus_weight = c.options.warp.focus_weight;
   in.light = space;
   in.centre = request.centre;

@@ -30,19 +30,40 @@ struct LightBody {
 };
 [[nodiscard]] LightBody in_light_space(const PlanContext& c, const MapRequest& request) noexcept;
 
+/// What a question about a body with a focus refers to. Few have one, and this is long.
+struct WarpFocus {
+  Polytope part;     // of the body in the focus, along the frame's axes
+  LightBody judged;  // the body's points
+};
+
 /// How a warp is asked about a body, with everything that the question refers to.
 struct WarpQuestion {
-  Polytope focus, body_light;
+  Polytope body_light;
   Plane receiver;                                  // along the frame's axes, where the request has one
-  LightBody judged;                                // where there is a focus
   const LightBody& points;                         // as warps judge them
   std::array<glm::dvec3, SeenPoints::kMost> seen;  // those of the context inside the body
   WarpInput in;
-  /// `body`: the request's, in light space; refers to it.
-  WarpQuestion(const PlanContext& c, const MapRequest& request, const LightBody& body) noexcept;
+  /// `body`: the request's, in light space; refers to it. `focus`: nullptr where the options have none.
+  WarpQuestion(const PlanContext& c, const MapRequest& request, const LightBody& body,
+               WarpFocus* focus) noexcept;
   WarpQuestion(const WarpQuestion&) = delete;
   WarpQuestion& operator=(const WarpQuestion&) = delete;
 };
+template <class Use>
+[[gnu::noinline]] auto with_focused_question(const PlanContext& c, const MapRequest& request,
+                                             const LightBody& body, const Use& use) noexcept {
+  WarpFocus focus;
+  WarpQuestion question(c, request, body, &focus);
+  return use(question);
+}
+/// Calls `use` with the question about a body. Only one with a focus makes room for it.
+template <class Use>
+auto with_question(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                   const Use& use) noexcept {
+  if (!c.options.warp.focus.empty()) return with_focused_question(c, request, body, use);
+  WarpQuestion question(c, request, body, nullptr);
+  return use(question);
+}
 /// The body's points as warps judge them: with the focus's own, all others as much deeper as they count less.
 /// `focus`: the part of the body in the focus, relative to the camera; empty where there is none.
 [[nodiscard]] LightBody judged_body(const PlanContext& c, const MapRequest& request,

@@ -26,7 +26,7 @@ void translate(Polytope& body, const glm::dvec3& by) noexcept {
 }
 
 /// Corners of the smallest part of the view's frustum that holds `body`: fewer points than a body may have.
-void add_corners(const SharedView& view, const Polytope& body, ViewedBody& out) noexcept {
+void add_corners(const SharedView& view, const Polytope& body, ViewedPoints& out) noexcept {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   glm::dvec3 low(kInfinity), high(-kInfinity);
   for (const Polytope::Vertex& v : body.vertices()) {
@@ -50,7 +50,7 @@ void add_corners(const SharedView& view, const Polytope& body, ViewedBody& out) 
 /// `part` by view; those that see nothing are empty. The error counts from the depth `counted_from` on. Where
 /// that cuts a part, its own points are infinitely deep, and those of what is left are added.
 void add_points(std::span<const SharedView> views, std::span<const Polytope> part, double counted_from,
-                ViewedBody& out) noexcept {
+                ViewedPoints& out) noexcept {
   std::array<Polytope, kMaxViews> counted;
   int vertices = 0;
   for (std::size_t i = 0; i < part.size(); ++i) {
@@ -144,27 +144,28 @@ Polytope view_body(const PlanContext& c) noexcept {
   return hull_of({part.data(), c.views.size()});
 }
 
-ViewedBody viewed_between(const PlanContext& c, double begin, double end, double counted_from) noexcept {
+ViewedPoints viewed_between(const PlanContext& c, double begin, double end, double counted_from,
+                            Polytope& hull) noexcept {
   std::array<Polytope, kMaxViews> part;
   const std::span<Polytope> parts{part.data(), c.views.size()};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     parts[i] = receivers_between(c.views[i], begin, end);
     clip_part(parts[i], c.bounds.receivers, c.camera.position);
   }
-  ViewedBody viewed;
-  viewed.hull = hull_of(parts);
+  hull = hull_of(parts);
+  ViewedPoints viewed;
   add_points(c.views, parts, counted_from, viewed);
   return viewed;
 }
 
-ViewedBody viewed_within(const PlanContext& c, const Polytope& body) noexcept {
+ViewedPoints viewed_within(const PlanContext& c, const Polytope& body) noexcept {
   std::array<Polytope, kMaxViews> part;
   const std::span<Polytope> parts{part.data(), c.views.size()};
   for (std::size_t i = 0; i < parts.size(); ++i) {
     parts[i] = c.views[i].body;
     for (int f = 0; f < body.face_count; ++f) clip(parts[i], body.plane[static_cast<std::size_t>(f)]);
   }
-  ViewedBody viewed;
+  ViewedPoints viewed;
   add_points(c.views, parts, c.options.split.pseudo_near, viewed);
   return viewed;
 }

@@ -27,20 +27,20 @@ namespace gnomon {
 /// A convex body round all of `parts`: the faces of each, moved out to hold the others.
 [[nodiscard]] Polytope hull_of(std::span<const Polytope> parts) noexcept;
 
-/// What all cameras see between two view depths, each by its own.
-struct ViewedBody {
-  Polytope hull;  // empty where no camera sees a receiver there
+/// What cameras see, each by its own view depths.
+struct ViewedPoints {
   std::array<ViewedPoint, kMaxBodyPoints> point;
   int count = 0;
   [[nodiscard]] std::span<const ViewedPoint> points() const noexcept {
     return {point.data(), static_cast<std::size_t>(count)};
   }
 };
-/// `counted_from`: the view depth from which the error counts; nearer points are infinitely deep.
-[[nodiscard]] ViewedBody viewed_between(const PlanContext& c, double begin, double end,
-                                        double counted_from) noexcept;
-/// Of what the cameras see inside `body`, whatever its depth: the points only.
-[[nodiscard]] ViewedBody viewed_within(const PlanContext& c, const Polytope& body) noexcept;
+/// What all cameras see between two view depths, and a body round it, empty where no camera sees a receiver
+/// there. `counted_from`: the view depth from which the error counts; nearer points are infinitely deep.
+[[nodiscard]] ViewedPoints viewed_between(const PlanContext& c, double begin, double end, double counted_from,
+                                          Polytope& hull) noexcept;
+/// What the cameras see inside `body`, whatever its depth.
+[[nodiscard]] ViewedPoints viewed_within(const PlanContext& c, const Polytope& body) noexcept;
 
 /// A camera in the middle that looks the mean way over the images of all: what warps are turned along and
 /// percentiles of errors are sampled from.

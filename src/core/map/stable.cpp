@@ -61,7 +61,8 @@ double longest_distance(const PlanContext& c, const MapRequest& request, const S
   return longest;
 }
 
-Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {
+/// Out of line: the map need not make room for the slices.
+[[gnu::noinline]] Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {
   const LightFrame& frame = request.space.frame;
   Grid grid{};
   // Rounded up so that its own rounding can never change the grid; one texel is the room that snapping moves

@@ -82,14 +82,14 @@ class Lengths {
   [[nodiscard]] double quantile(double share) const noexcept {
     std::int64_t beyond = all_ - static_cast<std::int64_t>(share * static_cast<double>(all_));
     std::size_t bin = kBins;
-    while (bin > 0 && (beyond -= count_[bin - 1]) >= 0) --bin;
+    while (bin > 0 && (beyond -= std::int64_t{count_[bin - 1]}) >= 0) --bin;
     return std::exp2((static_cast<double>(bin) - 0.5 * kBins) / kPerOctave);
   }
 
  private:
   static constexpr std::size_t kBins = 1024;  // from 2^-16 to 2^16 pixels
   static constexpr double kPerOctave = 32.0;
-  std::array<std::int64_t, kBins> count_{};
+  std::array<std::uint32_t, kBins> count_{};
   std::int64_t all_ = 0;
 };
 
@@ -135,6 +135,20 @@ struct VisibleNeeds {
 void raise(double share, double length, std::array<double, kNeedStrips>& strips) noexcept {
   const auto strip = static_cast<std::size_t>(min_of(share * kNeedStrips, kNeedStrips - 1.0));
   strips[strip] = max_of(strips[strip], length);
+}
+
+/// How long texels of this shape are, in pixels, by this share of the points. Out of line, as are the errors
+/// below: who asks need not make room for them.
+[[gnu::noinline]] double length_under(const PlanContext& c, const MapRequest& request,
+                                      const glm::dmat4& gl_from_relative, const ShadowMap& map,
+                                      const TexelGrid& grid, double share) noexcept {
+  const TexelGrid linear{map.width, map.height};
+  Lengths longer;
+  each_visible(c, request, gl_from_relative, map, [&](const VisibleTexel& at) {
+    const glm::dmat2 shaped = grid.place(at.ndc).texel_from_ndc, even = linear.place(at.ndc).texel_from_ndc;
+    longer.add(max_of(at.length.x * even[0][0] / shaped[0][0], at.length.y * even[1][1] / shaped[1][1]));
+  });
+  return longer.quantile(share);
 }
 
 /// The needs with none larger than that of this share of the points.
@@ -206,6 +220,30 @@ BorderedPlane with_border(const RowShape& rows, const PlaneMap& plane, double bo
   return result;
 }
 
+namespace {
+
+/// How long round texels are over linear ones, over the body.
+[[gnu::noinline]] double round_ratio(const WarpInput& in, const TexelGrid& round, const PlaneMap& whole,
+                                     const TexelGrid& linear, const PlaneMap& plane, bool longest) noexcept {
+  const PlaneError error(in, true);
+  if (error.counted().count == 0) return 1.0;
+  return length_over(error.counted(), whole, round, longest) /
+         length_over(error.counted(), plane, linear, longest);
+}
+
+[[gnu::noinline]] double round_ratio(const PlanContext& c, const MapRequest& request, const LightBody& body,
+                                     const TexelGrid& round, const PlaneMap& whole, const TexelGrid& linear,
+                                     const PlaneMap& plane) noexcept {
+  // By storage as well: the one worst texel, in a corner, says little of the others.
+  const bool longest = c.options.warp.objective == Objective::max;
+  return with_question(c, request, body, [&](WarpQuestion& question) {
+    if (!longest) question.in.objective = Objective::p95;
+    return round_ratio(question.in, round, whole, linear, plane, longest);
+  });
+}
+
+}  // namespace
+
 RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const LightBody& body,
                          const PlaneMap& plane, MapResult& result, PlaneMap& whole) noexcept {
   RoundTexels texels;
@@ -232,16 +270,9 @@ RoundTexels round_texels(const PlanContext& c, const MapRequest& request, const 
         glm::max(slopes.low - round.slopes.low, round.slopes.high - slopes.high) / (slopes.high - slopes.low);
     texels.border = max_of(beyond.x, beyond.y);
     texels.longest = round.longest;
-    // By storage as well: the one worst texel, in a corner, says little of the others.
-    const bool longest = c.options.warp.objective == Objective::max;
-    WarpQuestion question(c, request, body);
-    if (!longest) question.in.objective = Objective::p95;
-    const PlaneError error(question.in, true);
     const int margin = 2 * map.filter_margin_texels;
-    if (error.counted().count > 0)
-      ratio =
-          length_over(error.counted(), whole, {map.width, map.height, &shape, round.parameters}, longest) /
-          length_over(error.counted(), plane, {map.width - margin, map.height - margin}, longest);
+    ratio = round_ratio(c, request, body, {map.width, map.height, &shape, round.parameters}, whole,
+                        {map.width - margin, map.height - margin}, plane);
   }
   texels.used = ratio < 1.0 - kLeastWarpGain;
   if (!texels.used) {
@@ -278,18 +309,12 @@ glm::dvec2 serve_visible(const PlanContext& c, const MapRequest& request, const 
   const double before = visible.longer.quantile(counted);
   // Points have no normals. By those of the surfaces, less than a fifth is as often a loss.
   constexpr double kLeastGain = 0.2;
-  const TexelGrid linear{map.width, map.height};
   ServingShape best;
   double least = before;
   for (const double share : kShares) {
     const ServingShape tried = shape.serving(without_extremes(visible, share));
     const TexelGrid grid{map.width, map.height, &shape, tried.parameters};
-    Lengths longer;
-    each_visible(c, request, gl_from_relative, map, [&](const VisibleTexel& at) {
-      const glm::dmat2 shaped = grid.place(at.ndc).texel_from_ndc, even = linear.place(at.ndc).texel_from_ndc;
-      longer.add(max_of(at.length.x * even[0][0] / shaped[0][0], at.length.y * even[1][1] / shaped[1][1]));
-    });
-    const double after = longer.quantile(counted);
+    const double after = length_under(c, request, gl_from_relative, map, grid, counted);
     if (!(after < least)) continue;
     best = tried;
     least = after;

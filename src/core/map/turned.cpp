@@ -45,6 +45,22 @@ double area_along(std::span<const glm::dvec2> points, const glm::dvec2& side) no
   return (high_a - low_a) * (high_b - low_b);
 }
 
+/// Whether the turned map lowers the objective. Out of line: the hull need not make room for the samples.
+[[gnu::noinline]] bool turning_pays(const WarpInput& in, const WarpChoice& turned,
+                                    const WarpChoice& choice) noexcept {
+  const PlaneError error(in);
+  return error.value(turned) < error.value(choice) * (1.0 - kLeastWarpGain);
+}
+
+/// The side of the least rectangle round the body's image.
+[[gnu::noinline]] glm::dvec2 least_side(const WarpInput& in, const WarpChoice& choice) noexcept {
+  const PlaneMap map = plane_map(in.body, choice);
+  std::array<glm::dvec2, kMaxBodyPoints> image;
+  std::size_t count = 0;
+  for (const WarpInput::Point& p : in.body) image[count++] = map.image(p.x, p.y);
+  return least_rectangle_side({image.data(), count});
+}
+
 }  // namespace
 
 glm::dvec2 least_rectangle_side(std::span<const glm::dvec2> points) noexcept {
@@ -80,11 +96,7 @@ glm::dvec2 least_rectangle_side(std::span<const glm::dvec2> points) noexcept {
 }
 
 WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) noexcept {
-  const PlaneMap map = plane_map(in.body, choice);
-  std::array<glm::dvec2, kMaxBodyPoints> image;
-  std::size_t count = 0;
-  for (const WarpInput::Point& p : in.body) image[count++] = map.image(p.x, p.y);
-  const glm::dvec2 side = least_rectangle_side({image.data(), count});
+  const glm::dvec2 side = least_side(in, choice);
   WarpChoice turned = choice;
   turned.row_a = side;
   turned.row_b = {-side.y, side.x};
@@ -92,8 +104,7 @@ WarpChoice turned_to_least_area(const WarpInput& in, const WarpChoice& choice) n
   turned.gain_ratio = turned.last_ratio = 0.0;
   // Without perspective the area is the objective.
   if (in.flat()) return turned;
-  PlaneError error(in);
-  return error.value(turned) < error.value(choice) * (1.0 - kLeastWarpGain) ? turned : choice;
+  return turning_pays(in, turned, choice) ? turned : choice;
 }
 
 }  // namespace gnomon

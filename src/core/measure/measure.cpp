@@ -43,7 +43,7 @@ class Tally {
   std::array<Waiting, kMaxMaps> waiting_;
   std::array<std::optional<MetricFrame>, kMaxMaps> frame_;
   MetricBlock block_;
-  LogHistogram<10, 128> histogram_;  // eight octaves
+  LogHistogram<10, 96> histogram_;  // six octaves
   double sum_ = 0.0;
   std::array<double, kMaxMaps> s_max_{}, t_max_{};
   std::uint64_t undersampled_ = 0, outside_ = 0;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <new>
 #include <variant>
 
 #include "geometry/light_axes.hpp"
@@ -331,7 +332,9 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext&
   const bool stable = options.fit == Fit::stable || out.policy->octaves;
   const double border = std::ceil(static_cast<double>(kBaseTexels) * out.border_texels / out.page_texels);
   const ResolvedPages base_of = resolve_pages(options, stable, kBaseTexels, border);
-  const ShadowPlan plan = make_plan(c.camera, light, bounds, base_of.options);
+  // Where the levels will be written: stacks may be small.
+  const ShadowPlan& plan =
+      *::new (c.memory.levels.data()) ShadowPlan(make_plan(c.camera, light, bounds, base_of.options));
   out.invalid_field = plan.invalid_field;
   out.origin_world = plan.origin_world;
   out.light_direction = plan.light_direction;

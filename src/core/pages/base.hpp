@@ -48,6 +48,8 @@ inline constexpr std::size_t kPageWeights = 1 << 14;
 static_assert(kLadders * sizeof(PageGrid) + kPageWeights * sizeof(PageWeight) + 16 <=
               kMaxPageLevels * sizeof(ShadowMap));
 
+struct PageContext;
+
 /// The caller's memory, in parts.
 struct PageMemory {
   std::span<ShadowMap> levels;     ///< kMaxPageLevels; the plan uses a few dozen
@@ -55,6 +57,7 @@ struct PageMemory {
   std::span<PageWeight> weights;   ///< kPageWeights, behind the grids
   std::span<Page> pages;           ///< PageOptions::capacity
   std::span<std::uint32_t> table;  ///< page_table_size(capacity)
+  std::span<PageContext> context;  ///< one
   std::span<PagePoint> points;     ///< at least as many as visible points
 };
 

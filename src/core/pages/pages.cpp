@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <new>
 
 #include "geometry/matrix.hpp"
 #include "geometry/usable.hpp"
@@ -44,7 +45,8 @@ std::string_view invalid_pages(const PageOptions& o) noexcept {
 std::size_t memory_without_points(int capacity) noexcept {
   const int pages = std::clamp(capacity, 0, kMaxPages);
   return kMemorySlack + memory_of<ShadowMap>(kMaxPageLevels) +
-         memory_of<Page>(static_cast<std::size_t>(pages)) + memory_of<std::uint32_t>(page_table_size(pages));
+         memory_of<Page>(static_cast<std::size_t>(pages)) + memory_of<std::uint32_t>(page_table_size(pages)) +
+         memory_of<PageContext>(1);
 }
 
 /// No points where the memory is too small.
@@ -60,6 +62,7 @@ PageMemory parts_of(std::span<std::byte> memory, int capacity) noexcept {
           grids.take<PageWeight>(kPageWeights),
           parts.take<Page>(static_cast<std::size_t>(capacity)),
           parts.take<std::uint32_t>(page_table_size(capacity)),
+          parts.take<PageContext>(1),
           parts.take<PagePoint>(points)};
 }
 
@@ -272,7 +275,8 @@ PagePlan plan_pages(const View& view, const Light& light, const SceneBounds& bou
   plan.invalid_field = invalid_points(view, known, parts);
   if (!plan.invalid_field.empty()) return plan;
   const Camera finite = with_finite_far(view.camera, bounds.receivers);
-  PageContext c{finite, view, known, pages, parts, camera_axes(finite)};
+  PageContext& c =
+      *::new (parts.context.data()) PageContext{finite, view, known, pages, parts, camera_axes(finite)};
   plan.clip_space = pages.plan.clip_space;
   plan.bias = pages.plan.bias;
   plan.page_texels = pages.page_texels;

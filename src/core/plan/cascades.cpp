@@ -55,7 +55,7 @@ struct Slice {
   double overlap = 0.0;
   double room = 0.0;  // for motion, world units
   bool wanted = false;
-  ViewedBody viewed;  // of several cameras
+  ViewedPoints* viewed = nullptr;  // of several cameras: what they see
 
   Slice() noexcept = default;
   Slice(const Slice&) = delete;
@@ -74,12 +74,13 @@ void fill_body(const PlanContext& c, const ParallelScene& scene, double begin, d
     slice.body = &receivers_between(c, scene, begin, end, slice.own);
     return;
   }
-  slice.viewed = viewed_between(c, begin, end, counted_from);
-  slice.body = &slice.viewed.hull;
+  *slice.viewed = viewed_between(c, begin, end, counted_from, slice.own);
 }
 
-/// All that the cameras' frusta hold between two depths, where no receiver is.
-void fill_with_frusta(const PlanContext& c, double begin, double end, Slice& slice) noexcept {
+/// All that the cameras' frusta hold between two depths, where no receiver is. Out of line: other slices need
+/// not make room for the frusta.
+[[gnu::noinline]] void fill_with_frusta(const PlanContext& c, double begin, double end,
+                                        Slice& slice) noexcept {
   slice.body = &slice.own;
   if (c.views.empty()) {
     slice.own = frustum_slice(c.camera, c.axes, begin, end);
@@ -98,8 +99,8 @@ double overlap_before(const PlanContext& c, const ShadowPlan& plan, double begin
 }
 
 /// [from, to]: the depths between the neighbouring cascades.
-void slice_between(const PlanContext& c, const ParallelScene& scene, const ShadowPlan& plan, double from,
-                   double to, Slice& slice) noexcept {
+[[gnu::noinline]] void slice_between(const PlanContext& c, const ParallelScene& scene, const ShadowPlan& plan,
+                                     double from, double to, Slice& slice) noexcept {
   const DepthRange visible =
       c.visible_depths == nullptr ? DepthRange{from, to} : visible_range(*c.visible_depths, from, to);
   // A single depth is a slice only where it is all there is.
@@ -144,8 +145,26 @@ PlanHistory::KeptMap cascade_to_cache(const PlanContext& c, const MapResult& res
   return {frame, result.drawn, result.map, result.gl_from_world, c.camera};
 }
 
-void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade, DepthRange between,
-                  MapSizes::Size size, PlanHistory* history, ShadowPlan& plan) noexcept {
+void fit_cascade(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
+  if (c.how.stable) {
+    stable_map(c, request, result);
+  } else {
+    focused_map(c, request, result);
+  }
+}
+
+/// A cascade that is cached while the camera moves serves what will be in view. Out of line: others need not
+/// make room for that.
+[[gnu::noinline]] void fit_with_room(const PlanContext& c, MapRequest& request, MapResult& result) noexcept {
+  const Polytope moving = receivers_with_room(c, c.camera.near_depth, c.camera.far_depth, request.room);
+  if (!moving.empty()) request.all_receivers = &moving;
+  fit_cascade(c, request, result);
+}
+
+/// `viewed`: room for what several cameras see; nullptr where there is one.
+[[gnu::noinline]] void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
+                                    DepthRange between, MapSizes::Size size, PlanHistory* history,
+                                    ViewedPoints* viewed, ShadowPlan& plan) noexcept {
   const bool caches = c.how.caches_cascades && cascade > 0;
   if (caches) {
     const PlanHistory::KeptMap* const cached =
@@ -153,6 +172,7 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
     if (cached != nullptr) return add_cached(c, *cached, *history, plan);
   }
   Slice slice;
+  slice.viewed = viewed;
   if (caches) slice.room = room_for_motion(c, between.end);
   slice_between(c, scene, plan, between.begin, between.end, slice);
   const bool on_planes = scene.planes != nullptr && slice.wanted && !slice.body->empty() &&
@@ -175,22 +195,27 @@ void plan_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
   request.slot.overlap = slice.overlap;
   request.without_casters = !c.options.prune.has(PruneRule::casterless_cascades);
   request.last = last_map(history, cascade);
-  Polytope moving;
-  if (slice.room > 0.0 && plan.selection == MapSelection::finest)
-    moving = receivers_with_room(c, c.camera.near_depth, c.camera.far_depth, slice.room);
-  if (plan.selection == MapSelection::finest) request.all_receivers = moving.empty() ? &scene.body : &moving;
-  request.viewed = slice.viewed.points();
+  if (plan.selection == MapSelection::finest) request.all_receivers = &scene.body;
+  if (slice.viewed != nullptr) request.viewed = slice.viewed->points();
   request.room = slice.room;
   MapResult result(next_map(plan));
-  if (c.how.stable) {
-    stable_map(c, request, result);
+  if (request.all_receivers != nullptr && request.room > 0.0) {
+    fit_with_room(c, request, result);
   } else {
-    focused_map(c, request, result);
+    fit_cascade(c, request, result);
   }
   if (caches) history->kept[static_cast<std::size_t>(cascade)] = cascade_to_cache(c, result, history->frame);
   merge(result,
         {OmissionKind::cascade_without_caster, cascade, slice.begin, slice.end, texels_asked(c.options)},
         history, plan);
+}
+
+/// Out of line: cascades of one view need not make room for the points of several.
+[[gnu::noinline]] void plan_viewed_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
+                                           DepthRange between, MapSizes::Size size, PlanHistory* history,
+                                           ShadowPlan& plan) noexcept {
+  ViewedPoints viewed;
+  plan_cascade(c, scene, cascade, between, size, history, &viewed, plan);
 }
 
 /// The sizes of the last frame's maps, and how many there were.
@@ -270,7 +295,12 @@ void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascade
   }
   for (int i = 0; i < cascades; ++i) {
     const auto at = static_cast<std::size_t>(i);
-    plan_cascade(c, scene, i, {edges.depth[at], edges.depth[at + 1]}, sizes.of[at], history, plan);
+    const DepthRange between{edges.depth[at], edges.depth[at + 1]};
+    if (c.views.empty()) {
+      plan_cascade(c, scene, i, between, sizes.of[at], history, nullptr, plan);
+    } else {
+      plan_viewed_cascade(c, scene, i, between, sizes.of[at], history, plan);
+    }
   }
 }
 

@@ -212,12 +212,10 @@ struct JudgedEdges {
   JointObjective objective;
 };
 
-/// The best edges by the simplified error, from those that `edges` gives.
-JudgedEdges searched_edges(const PlanContext& c, const ParallelScene& scene,
-                           std::span<const double> edges) noexcept {
-  JudgedEdges result{};
-  std::copy(edges.begin(), edges.end(), result.depth.begin());
-  const std::span<double> depths{result.depth.data(), edges.size()};
+/// Moves the edges to the best ones by the simplified error. Out of line: the exact one need not make room
+/// for the table.
+[[gnu::noinline]] void search_edges(const PlanContext& c, const ParallelScene& scene,
+                                    std::span<double> depths) noexcept {
   SplitTable table(c, scene);
   const bool by_table = SplitTable::serves(c);
   const auto cost = [&](double begin, double end) {
@@ -226,6 +224,15 @@ JudgedEdges searched_edges(const PlanContext& c, const ParallelScene& scene,
   const auto both = [&](double a, double b) { return joined(c.options.warp.objective, a, b); };
   search_splits(depths, cost, both);
   refine_splits(depths, cost, both);
+}
+
+/// The best edges by the simplified error, from those that `edges` gives.
+JudgedEdges searched_edges(const PlanContext& c, const ParallelScene& scene,
+                           std::span<const double> edges) noexcept {
+  JudgedEdges result{};
+  std::copy(edges.begin(), edges.end(), result.depth.begin());
+  const std::span<double> depths{result.depth.data(), edges.size()};
+  search_edges(c, scene, depths);
   result.objective = exact_objective(c, scene, depths);
   return result;
 }

@@ -129,8 +129,8 @@ NearCut nearest_shown(const LocalScene& scene, const LocalFrustum& frustum, cons
 /// Cuts off the apex, which has no slope, and everything farther than the range or too near to tell depths
 /// apart. `receivers`: the boxes that the body is to hold parts of, none for all that the frustum shows.
 /// Returns where it cut the near end off, distance 0 where nothing was there.
-NearCut clip_to_distances(const LocalScene& scene, Polytope& body, const LocalFrustum& frustum,
-                          const Boxes& receivers) noexcept {
+[[gnu::noinline]] NearCut clip_to_distances(const LocalScene& scene, Polytope& body,
+                                            const LocalFrustum& frustum, const Boxes& receivers) noexcept {
   const Plane far_plane = distance_plane(frustum, scene.range);
   clip(body, {-far_plane.normal, -far_plane.offset});
   // A share of what lies beside the receivers could be farther than all of them.
@@ -172,11 +172,10 @@ void clip_to_cone(Polytope& body, const LocalFrustum& face, const Cone& cone) no
 }
 
 /// All that a face shows, for a map that no receiver asks for.
-Polytope whole_face(const LocalScene& scene, const LocalFrustum& face) noexcept {
-  Polytope body = box_polytope({scene.apex - glm::dvec3(scene.range), scene.apex + glm::dvec3(scene.range)});
+[[gnu::noinline]] void fill_face(const LocalScene& scene, const LocalFrustum& face, Polytope& body) noexcept {
+  body = box_polytope({scene.apex - glm::dvec3(scene.range), scene.apex + glm::dvec3(scene.range)});
   clip_to_sides(body, face);
   if (!body.empty()) clip_to_distances(scene, body, face, {});
-  return body;
 }
 
 /// Light space turned so that y runs along the view as the light sees it at the body's point nearest to the
@@ -211,8 +210,8 @@ TurnedSpace along_view(const PlanContext& c, const LocalFrustum& frustum, const 
   return turned;
 }
 
-MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, const Polytope& body, int face,
-                       bool of_solid) noexcept {
+[[gnu::noinline]] MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum,
+                                         const Polytope& body, int face, bool of_solid) noexcept {
   const PlanContext& c = scene.c;
   const TurnedSpace turned = c.how.stable
                                  ? TurnedSpace{{frustum.frame, true, frustum.frame.turned(frustum.apex)}, 0.0}
@@ -248,15 +247,23 @@ MapRequest request_for(const LocalScene& scene, const LocalFrustum& frustum, con
   return request;
 }
 
-/// What of the body each of several cameras sees.
-ViewedBody viewed_body(const PlanContext& c, const Polytope& body) noexcept {
-  ViewedBody viewed;
-  if (!c.views.empty()) viewed = viewed_within(c, body);
-  return viewed;
+/// Out of line, as others below: maps of one view need not make room for the points of several.
+[[gnu::noinline]] void fit_to_views(const PlanContext& c, MapRequest& request, MapResult& result) noexcept {
+  const ViewedPoints viewed = viewed_within(c, request.body);
+  request.viewed = viewed.points();
+  focused_map(c, request, result);
 }
 
-void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double outer,
-               ShadowPlan& plan) noexcept {
+void fit_local(const PlanContext& c, MapRequest& request, MapResult& result) noexcept {
+  if (c.views.empty()) {
+    focused_map(c, request, result);
+  } else {
+    fit_to_views(c, request, result);
+  }
+}
+
+[[gnu::noinline]] void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double outer,
+                                 ShadowPlan& plan) noexcept {
   const LocalFrustum frustum =
       square_frustum(scene.apex, fixed_frame(direction), max_of(elementary::tan(outer), kNarrowest));
   Polytope body = scene.lit;
@@ -274,17 +281,15 @@ void plan_cone(const LocalScene& scene, const glm::dvec3& direction, double oute
   }
   MapRequest request = request_for(scene, frustum, body, 0, false);
   request.near_cut = cut;
-  const ViewedBody viewed = viewed_body(scene.c, body);
-  request.viewed = viewed.points();
   MapResult result(next_map(plan));
-  focused_map(scene.c, request, result);
+  fit_local(scene.c, request, result);
   if (result.drawn) merge(result, {}, scene.history, plan);
   plan.status = plan.map_count > 0 ? PlanStatus::ok : PlanStatus::no_caster;
 }
 
 /// Adds the map of one face, or says why it has none. True where it has a receiver.
-bool plan_face(const LocalScene& scene, const LocalFrustum& frustum, int face, const Cone* cone, bool dark,
-               ShadowPlan& plan) noexcept {
+[[gnu::noinline]] bool plan_face(const LocalScene& scene, const LocalFrustum& frustum, int face,
+                                 const Cone* cone, bool dark, ShadowPlan& plan) noexcept {
   const PruneRules& prune = scene.c.options.prune;
   Polytope body = scene.lit;
   if (dark) body.vertex_count = 0;
@@ -292,7 +297,7 @@ bool plan_face(const LocalScene& scene, const LocalFrustum& frustum, int face, c
   if (cone != nullptr) clip_to_cone(body, frustum, *cone);
   NearCut cut;
   if (!body.empty()) cut = clip_to_distances(scene, body, frustum, scene.c.bounds.receivers);
-  if (body.empty() && !dark && !prune.has(PruneRule::empty_faces)) body = whole_face(scene, frustum);
+  if (body.empty() && !dark && !prune.has(PruneRule::empty_faces)) fill_face(scene, frustum, body);
   if (body.empty()) {
     Omission face_omission{OmissionKind::face_without_receiver, face, 0.0, 0.0, 0};
     if (cut.boxes > 0) face_omission = near_receivers(cut, face);
@@ -302,10 +307,8 @@ bool plan_face(const LocalScene& scene, const LocalFrustum& frustum, int face, c
   }
   MapRequest request = request_for(scene, frustum, body, face, true);
   request.near_cut = cut;
-  const ViewedBody viewed = viewed_body(scene.c, body);
-  request.viewed = viewed.points();
   MapResult result(next_map(plan));
-  focused_map(scene.c, request, result);
+  fit_local(scene.c, request, result);
   merge(result, {OmissionKind::face_without_caster, face, 0.0, 0.0, texels_asked(scene.c.options)},
         scene.history, plan);
   return true;
@@ -338,8 +341,8 @@ void plan_tetrahedron(const LocalScene& scene, ShadowPlan& plan) noexcept {
 }
 
 /// Replaces the plan's maps.
-void plan_frusta(const LocalScene& scene, const Light& light, const Resolved& resolved,
-                 ShadowPlan& plan) noexcept {
+[[gnu::noinline]] void plan_frusta(const LocalScene& scene, const Light& light, const Resolved& resolved,
+                                   ShadowPlan& plan) noexcept {
   plan.map_count = plan.omission_count = 0;
   omit(plan, resolved.of_maps);
   const auto* spot = std::get_if<SpotLight>(&light);
@@ -353,6 +356,18 @@ void plan_frusta(const LocalScene& scene, const Light& light, const Resolved& re
     const Cone cone{plan.light_direction, spot->outer_radians};
     plan_cube(scene, fixed_frame(plan.light_direction), &cone, plan);
   }
+}
+
+/// A trial that leaves nothing to remember tells the sizes.
+[[gnu::noinline]] MapSizes sizes_within_budget(const LocalScene& scene, const Light& light,
+                                               const Resolved& resolved, ShadowPlan& plan) noexcept {
+  PlanContext trial = scene.c;
+  trial.how.forget();
+  const LocalScene equal{trial,       scene.warp, scene.apex,  scene.apex_world,
+                         scene.range, scene.lit,  scene.sizes, nullptr};
+  plan_frusta(equal, light, resolved, plan);
+  const int faces = resolved.tetrahedron ? static_cast<int>(kTetrahedron.size()) : kCubeFaces;
+  return TexelDemands(scene.c, plan, true).within_budget(faces);
 }
 
 }  // namespace
@@ -392,16 +407,7 @@ void plan_local(const PlanContext& c, const Light& light, const Resolved& resolv
     plan.status = PlanStatus::nothing_visible;
     return;
   }
-  if (options.resolution.texel_budget > 0) {
-    // A trial that leaves nothing to remember tells the sizes.
-    PlanContext trial = c;
-    trial.how.forget();
-    const LocalScene equal{trial,       scene.warp, scene.apex,  scene.apex_world,
-                           scene.range, scene.lit,  scene.sizes, nullptr};
-    plan_frusta(equal, light, resolved, plan);
-    const int faces = resolved.tetrahedron ? static_cast<int>(kTetrahedron.size()) : kCubeFaces;
-    scene.sizes = TexelDemands(c, plan, true).within_budget(faces);
-  }
+  if (options.resolution.texel_budget > 0) scene.sizes = sizes_within_budget(scene, light, resolved, plan);
   plan_frusta(scene, light, resolved, plan);
 }
 

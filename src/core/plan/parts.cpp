@@ -32,8 +32,8 @@ namespace {
 /// Dividing must gain this much, or it would come and go with the last bits of the input.
 constexpr double kLeastGain = 1e-3;
 
+/// A part, without its body: bodies are long, and are cut anew where they are needed.
 struct Part {
-  Polytope body;
   std::array<Plane, kMaxSelectPlanes> plane;  // relative to the camera
   int plane_count = 0;
   int index = 0;
@@ -43,10 +43,15 @@ struct Part {
   double objective = 0.0;  // of its map alone
 };
 
-struct Parts {
-  std::array<Part, kMaxMaps> part;
+/// What the maps of some parts come to.
+struct PartsSum {
   int count = 0;
   double objective = 0.0;
+};
+
+struct Parts {
+  std::array<Part, kMaxMaps> part;
+  PartsSum sum;             // of the parts, so many of which are used
   bool no_balance = false;  // a plane was looked for, and none has both maps equally dense
   bool most_maps = false;   // more slices of faces would lower the objective, and there is no map for them
   int fewest_slices = 0;    // that a face has which could be divided further
@@ -56,38 +61,53 @@ struct Parts {
 // point must not fall between three of them by rounding.
 constexpr double kOverlap = 1e-12, kPositionRounding = 1e-14;
 
-MapRequest request_of(const Part& part) noexcept {
+MapRequest request_of(const Part& part, const Polytope& body) noexcept {
   LightSpace space;
   space.frame = part.frame;
-  return {{}, part.body, space, *part.warp, part.begin, part.end, {}, 0.0, 0.0, 0.0, false, {}};
+  return {{}, body, space, *part.warp, part.begin, part.end, {}, 0.0, 0.0, 0.0, false, {}};
 }
 
-/// Cuts the part's depths to its body's.
-void narrow_depths(const PlanContext& c, Part& part) noexcept {
-  const DepthRange depths = depths_of(part.body, c.axes.forward);
+/// What of `body` is inside the part's planes.
+Polytope inside_of(const PlanContext& c, const Polytope& body, const Part& part) noexcept {
+  Polytope inside = body;
+  for (int i = 0; i < part.plane_count; ++i) clip(inside, part.plane[static_cast<std::size_t>(i)]);
+  if (part.plane_count > 0) clip_part(inside, c.bounds.receivers, c.camera.position);
+  return inside;
+}
+
+/// Cuts the part's depths to those of `body`.
+void narrow_depths(const PlanContext& c, const Polytope& body, Part& part) noexcept {
+  const DepthRange depths = depths_of(body, c.axes.forward);
   part.begin = max_of(part.begin, min_of(depths.begin, part.end));
   part.end = clamp_to(depths.end, part.begin, part.end);
 }
 
-/// Adds what of `body` is inside the part's planes, where anything is.
-void add_part(const PlanContext& c, const Polytope& body, Part part, Parts& parts) noexcept {
+/// Adds the part to what all of them come to, with the objective of its map, where anything of `body` is
+/// inside its planes; false where nothing is. This and others below are out of line: together they would take
+/// more stack than any of them.
+[[gnu::noinline]] bool weigh_part(const PlanContext& c, const Polytope& body, Part& part,
+                                  PartsSum& sum) noexcept {
   double farthest = 0.0;
   for (const Polytope::Vertex& v : body.vertices())
     farthest = max_of(farthest, largest_component(v.position));
   const double overlap = kOverlap * farthest + kPositionRounding * largest_component(c.camera.position);
-  part.body = body;
-  for (int i = 0; i < part.plane_count; ++i) {
-    Plane& plane = part.plane[static_cast<std::size_t>(i)];
-    plane.offset += overlap;
-    clip(part.body, plane);
-  }
-  if (part.plane_count > 0) clip_part(part.body, c.bounds.receivers, c.camera.position);
-  if (part.body.empty()) return;
-  if (part.plane_count > 0) narrow_depths(c, part);
-  part.objective = focused_objective(c, request_of(part)).value;
-  parts.objective = c.options.warp.objective == Objective::storage ? parts.objective + part.objective
-                                                                   : max_of(parts.objective, part.objective);
-  parts.part[static_cast<std::size_t>(parts.count++)] = part;
+  for (int i = 0; i < part.plane_count; ++i) part.plane[static_cast<std::size_t>(i)].offset += overlap;
+  const Polytope inside = inside_of(c, body, part);
+  if (inside.empty()) return false;
+  if (part.plane_count > 0) narrow_depths(c, inside, part);
+  part.objective = focused_objective(c, request_of(part, inside)).value;
+  sum.objective = c.options.warp.objective == Objective::storage ? sum.objective + part.objective
+                                                                 : max_of(sum.objective, part.objective);
+  ++sum.count;
+  return true;
+}
+
+/// Adds what of `body` is inside the part's planes, where anything is.
+bool add_part(const PlanContext& c, const Polytope& body, Part part, Parts& parts) noexcept {
+  const auto place = static_cast<std::size_t>(parts.sum.count);
+  if (!weigh_part(c, body, part, parts.sum)) return false;
+  parts.part[place] = part;
+  return true;
 }
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -106,8 +126,8 @@ struct Frustum {
   std::array<double, kFrustumFaces> facing;  // sine of the light above the face; used above kAlongLight
   double along_view;                         // the same of a plane across the view
 
-  Frustum(const PlanContext& context, const ParallelScene& parallel, const Polytope& divided, double from,
-          double to, double sign) noexcept
+  [[gnu::noinline]] Frustum(const PlanContext& context, const ParallelScene& parallel,
+                            const Polytope& divided, double from, double to, double sign) noexcept
       : c(context), scene(parallel), body(divided), begin(from), end(to) {
     const Polytope frustum = frustum_slice(c.camera, c.axes, begin, end);
     for (std::size_t f = 0; f < kFrustumFaces; ++f) {
@@ -172,8 +192,9 @@ Part part_of(const Frustum& all, std::size_t face, const FaceSlice& slice, int i
 }
 
 /// The view depths at which rays of light through a part's body meet its face.
-DepthRange depths_at_face(const Frustum& all, std::size_t face, const Polytope& body) noexcept {
+[[gnu::noinline]] DepthRange depths_at_face(const Frustum& all, std::size_t face, const Part& part) noexcept {
   DepthRange depths{all.end, all.begin};
+  const Polytope body = inside_of(all.c, all.body, part);
   const Plane& plane = all.plane[face];
   for (const Polytope::Vertex& v : body.vertices()) {
     const double above = glm::dot(plane.normal, v.position) + plane.offset;
@@ -184,9 +205,10 @@ DepthRange depths_at_face(const Frustum& all, std::size_t face, const Polytope& 
   return depths;
 }
 
-/// Adds the parts of a side face that is divided into `slices`, numbered from `parts.count` on.
-void add_slices(const Frustum& all, std::size_t face, const DepthRange& depths, int slices,
-                Parts& parts) noexcept {
+/// Calls `add` with the parts of a side face that is divided into `slices`, numbered from `first` on.
+template <class Add>
+void for_each_slice(const Frustum& all, std::size_t face, const DepthRange& depths, int slices, int first,
+                    Add&& add) noexcept {
   std::array<double, kMaxMaps + 1> edge;
   const auto count = static_cast<std::size_t>(slices);
   split_depths(depths.begin, depths.end, all.c.options.split, {edge.data(), count + 1});
@@ -196,7 +218,7 @@ void add_slices(const Frustum& all, std::size_t face, const DepthRange& depths, 
     if (i > 0) slice.near_depth = edge[i];
     if (i + 1 < count) slice.far_depth = edge[i + 1];
     if (slice.near_depth >= slice.far_depth) continue;
-    add_part(all.c, all.body, part_of(all, face, slice, parts.count), parts);
+    first += add(part_of(all, face, slice, first)) ? 1 : 0;
   }
 }
 
@@ -214,8 +236,9 @@ void weigh_next(const Frustum& all, DividedFace& one) noexcept {
   one.next_objective = kInfinity;
   const bool may = one.face < kSideFaces && one.slices < all.c.options.split.face_slices;
   if (!may || !(one.depths.begin < one.depths.end)) return;
-  Parts next;
-  add_slices(all, one.face, one.depths, one.slices + 1, next);
+  PartsSum next;
+  for_each_slice(all, one.face, one.depths, one.slices + 1, 0,
+                 [&](Part part) { return weigh_part(all.c, all.body, part, next); });
   one.next_maps = next.count;
   if (next.objective < one.objective * (1.0 - kLeastGain)) one.next_objective = next.objective;
 }
@@ -235,19 +258,19 @@ DividedFace* best_to_divide(const Frustum& all, std::span<DividedFace> faces) no
   return best != nullptr && best->next_objective < kInfinity ? best : nullptr;
 }
 
-/// Divides the faces, of which `whole` holds a part each, as far as it pays and maps suffice.
-Parts divided_faces(const Frustum& all, const Parts& whole) noexcept {
+/// Divides the faces, of which `parts` holds a part each, as far as it pays and maps suffice.
+void divide_faces(const Frustum& all, Parts& parts) noexcept {
   std::array<DividedFace, kFrustumFaces> storage;
-  const std::span<DividedFace> faces{storage.data(), static_cast<std::size_t>(whole.count)};
+  const std::span<DividedFace> faces{storage.data(), static_cast<std::size_t>(parts.sum.count)};
   for (std::size_t i = 0; i < faces.size(); ++i) {
-    const Part& part = whole.part[i];
+    const Part& part = parts.part[i];
     faces[i].face = static_cast<std::size_t>(part.index);
     faces[i].objective = part.objective;
-    if (faces[i].face < kSideFaces) faces[i].depths = depths_at_face(all, faces[i].face, part.body);
+    if (faces[i].face < kSideFaces) faces[i].depths = depths_at_face(all, faces[i].face, part);
     weigh_next(all, faces[i]);
   }
-  Parts parts;
-  int maps = whole.count;
+  int maps = parts.sum.count;
+  parts.sum = {};
   while (DividedFace* const next = best_to_divide(all, faces)) {
     if (maps - next->maps + next->next_maps > kMaxMaps) {
       parts.most_maps = true;
@@ -261,31 +284,33 @@ Parts divided_faces(const Frustum& all, const Parts& whole) noexcept {
     weigh_next(all, *next);
   }
   for (const DividedFace& one : faces) {
-    if (one.face < kSideFaces)
-      add_slices(all, one.face, one.depths, one.slices, parts);
-    else
-      add_part(all.c, all.body, part_of(all, one.face, {}, parts.count), parts);
+    if (one.face < kSideFaces) {
+      for_each_slice(all, one.face, one.depths, one.slices, parts.sum.count,
+                     [&](const Part& part) { return add_part(all.c, all.body, part, parts); });
+    } else {
+      add_part(all.c, all.body, part_of(all, one.face, {}, parts.sum.count), parts);
+    }
   }
-  return parts;
 }
 
-Parts parts_of_faces(const Frustum& all) noexcept {
-  Parts whole;
+void add_faces(const Frustum& all, Parts& parts) noexcept {
   for (std::size_t face = 0; face < kFrustumFaces; ++face) {
-    if (all.uses(face)) add_part(all.c, all.body, part_of(all, face, {}, static_cast<int>(face)), whole);
+    if (all.uses(face)) add_part(all.c, all.body, part_of(all, face, {}, static_cast<int>(face)), parts);
   }
-  return all.c.options.split.face_slices > 1 ? divided_faces(all, whole) : whole;
+  if (all.c.options.split.face_slices > 1) divide_faces(all, parts);
 }
 
 /// Divides the body, whose view depths lie in [begin, end], among the faces that the light enters a
 /// perspective camera's frustum by, or leaves it by, whichever set has the lower objective, and each side
 /// face into at most SplitOptions::face_slices.
-Parts frustum_faces(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
-                    double end) noexcept {
-  const Parts entered = parts_of_faces({c, scene, body, begin, end, 1.0});
-  const Parts left = parts_of_faces({c, scene, body, begin, end, -1.0});
-  const bool leaves_better = left.count > 0 && (entered.count == 0 || left.objective < entered.objective);
-  return leaves_better ? left : entered;
+[[gnu::noinline]] void frustum_faces(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
+                                     double begin, double end, Parts& parts) noexcept {
+  add_faces({c, scene, body, begin, end, 1.0}, parts);
+  Parts left;
+  add_faces({c, scene, body, begin, end, -1.0}, left);
+  const bool leaves_better =
+      left.sum.count > 0 && (parts.sum.count == 0 || left.sum.objective < parts.sum.objective);
+  if (leaves_better) parts = left;
 }
 
 /// A group, with the best way to halve it.
@@ -320,12 +345,11 @@ Polytope body_of(const Divided& all, const Cluster& cluster) noexcept {
 }
 
 /// The objective of a map of this body without a warp; 0 where there is nothing.
-double cost_of(const Divided& all, Part& part) noexcept {
-  if (part.body.empty()) return 0.0;
-  part.begin = all.part.begin;
-  part.end = all.part.end;
-  narrow_depths(all.c, part);
-  return focused_objective(all.c, request_of(part)).unwarped;
+[[gnu::noinline]] double cost_of(const Divided& all, const Polytope& body) noexcept {
+  if (body.empty()) return 0.0;
+  Part part = all.part;
+  narrow_depths(all.c, body, part);
+  return focused_objective(all.c, request_of(part, body)).unwarped;
 }
 
 /// Cuts across the axes of the world, evenly over the body, and across the view where depths count by their
@@ -350,20 +374,18 @@ void for_each_cut(const Divided& all, const Polytope& body, Try&& attempt) noexc
 
 /// Finds the cluster's cost and its best cut.
 void weigh(const Divided& all, Cluster& cluster) noexcept {
-  Part part = all.part;
-  part.body = body_of(all, cluster);
-  cluster.cost = cost_of(all, part);
+  const Polytope body = body_of(all, cluster);
+  cluster.cost = cost_of(all, body);
   cluster.halved = kInfinity;
-  if (part.body.empty() || cluster.plane_count == kMaxSelectPlanes) return;
-  const Polytope body = part.body;
+  if (body.empty() || cluster.plane_count == kMaxSelectPlanes) return;
   double least = cluster.cost;
   for_each_cut(all, body, [&](const Plane& cut) {
     std::array<double, 2> halves{};
     for (std::size_t side = 0; side < 2; ++side) {
-      part.body = body;
-      clip(part.body, side == 0 ? cut : turned_round(cut));
-      clip_part(part.body, all.c.bounds.receivers, all.c.camera.position);
-      halves[side] = cost_of(all, part);
+      Polytope half = body;
+      clip(half, side == 0 ? cut : turned_round(cut));
+      clip_part(half, all.c.bounds.receivers, all.c.camera.position);
+      halves[side] = cost_of(all, half);
     }
     const double cost = all.together(halves[0], halves[1]);
     // Both sides must hold something: else the cut is for nothing.
@@ -390,8 +412,9 @@ int best_to_halve(const Divided& all, std::span<const Cluster> clusters) noexcep
 
 /// Divides the body, whose view depths lie in [begin, end], into at most PlanOptions::cascades clusters; one
 /// where no division lowers the objective of unwarped maps.
-Parts receiver_clusters(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
-                        double end) noexcept {
+[[gnu::noinline]] void receiver_clusters(const PlanContext& c, const ParallelScene& scene,
+                                         const Polytope& body, double begin, double end,
+                                         Parts& parts) noexcept {
   Divided all{c, body, {}, c.options.warp.objective == Objective::storage};
   all.part.begin = begin;
   all.part.end = end;
@@ -414,7 +437,6 @@ Parts receiver_clusters(const PlanContext& c, const ParallelScene& scene, const 
     weigh(all, first);
     weigh(all, second);
   }
-  Parts parts;
   for (std::size_t i = 0; i < count; ++i) {
     Part part = all.part;
     part.warp = &scene.warp;
@@ -423,7 +445,6 @@ Parts receiver_clusters(const PlanContext& c, const ParallelScene& scene, const 
     part.plane_count = clusters[i].plane_count;
     add_part(c, body, part, parts);
   }
-  return parts;
 }
 
 /// A body parted by a plane across the direction that its warp grows in.
@@ -471,22 +492,22 @@ double density_step(const PlanContext& c, const ParallelScene& scene, const Poly
   const double border = s.near_end + s.length * at;
   for (int side = 0; side < 2; ++side) {
     Part part = side_part(scene, s, begin, end, side, at);
-    part.body = body;
-    clip(part.body, part.plane[0]);
-    if (part.body.empty()) {
+    Polytope inside = body;
+    clip(inside, part.plane[0]);
+    if (inside.empty()) {
       known = false;
       return 0.0;
     }
     if (side == 0) {
       // Corners that the cut has made.
       constexpr double kOnPlane = 1e-9;
-      for (const Polytope::Vertex& v : part.body.vertices()) {
+      for (const Polytope::Vertex& v : inside.vertices()) {
         if (std::abs(glm::dot(s.axis, v.position) - border) <= kOnPlane * s.length)
           corners[count++] = v.position;
       }
     }
-    narrow_depths(c, part);
-    map[static_cast<std::size_t>(side)] = focused_plane(c, request_of(part));
+    narrow_depths(c, inside, part);
+    map[static_cast<std::size_t>(side)] = focused_plane(c, request_of(part, inside));
   }
   known = count > 0;
   const std::span<const glm::dvec3> on_plane{corners.data(), count};
@@ -497,8 +518,9 @@ double density_step(const PlanContext& c, const ParallelScene& scene, const Poly
 
 /// Where along the length both maps' texels are as dense as each other: the nearer the plane, the denser the
 /// first map's and the sparser the second's. Below 0: nowhere, as the first map's best warp changes at once.
-double balanced_share(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
-                      const Separation& s, double begin, double end, double first) noexcept {
+[[gnu::noinline]] double balanced_share(const PlanContext& c, const ParallelScene& scene,
+                                        const Polytope& body, const Separation& s, double begin, double end,
+                                        double first) noexcept {
   constexpr int kSteps = 24;
   constexpr double kEqual = 0.02;  // of the logarithm: 2 % of the density
   double low = 0.0, high = 1.0, at = first;
@@ -516,26 +538,25 @@ double balanced_share(const PlanContext& c, const ParallelScene& scene, const Po
 }
 
 /// The part before the plane where warping ends, and the one behind; none where nothing is warped.
-Parts separated_parts(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
-                      double end) noexcept {
-  Parts parts;
+[[gnu::noinline]] void separated_parts(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
+                                       double begin, double end, Parts& parts) noexcept {
   const PlaneMap map = focused_plane(c, request_for(scene, body, begin, end));
-  if (!(map.choice.kappa > 0.0)) return parts;
+  if (!(map.choice.kappa > 0.0)) return;
   const LightFrame& frame = scene.space.frame;
   const Separation s{frame.x * map.choice.axis.x + frame.y * map.choice.axis.y, map.u_min, map.length};
   const double at =
       balanced_share(c, scene, body, s, begin, end, separating_share(map.choice.kappa, map.length));
   parts.no_balance = at < 0.0;
-  if (parts.no_balance) return parts;
+  if (parts.no_balance) return;
   for (int side = 0; side < 2; ++side) add_part(c, body, side_part(scene, s, begin, end, side, at), parts);
-  return parts;
 }
 
 /// The objective of so many cascades, each warped.
-double cascades_objective(const PlanContext& c, const ParallelScene& scene, const Polytope& body,
-                          double begin, double end, int count) noexcept {
+[[gnu::noinline]] double cascades_objective(const PlanContext& c, const ParallelScene& scene,
+                                            const Polytope& body, double begin, double end,
+                                            int count) noexcept {
   const CascadeEdges edges = cascade_edges(c, scene, count, nullptr);
-  Parts cascades;
+  PartsSum cascades;
   for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(edges.count); ++i) {
     Part part;
     part.begin = max_of(begin, edges.depth[i]);
@@ -545,7 +566,7 @@ double cascades_objective(const PlanContext& c, const ParallelScene& scene, cons
     part.plane[0] = {c.axes.forward, -part.begin};
     part.plane[1] = {-c.axes.forward, part.end};
     part.plane_count = 2;
-    add_part(c, body, part, cascades);
+    weigh_part(c, body, part, cascades);
   }
   return cascades.count > 0 ? cascades.objective : std::numeric_limits<double>::infinity();
 }
@@ -562,19 +583,22 @@ int rival_cascades(const PlanContext& c) noexcept {
   }
 }
 
-Parts divided(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin,
-              double end) noexcept {
+/// Divides the body as the options ask; no parts where that is of no use.
+void divide(const PlanContext& c, const ParallelScene& scene, const Polytope& body, double begin, double end,
+            Parts& parts) noexcept {
   if (c.options.split.partition == Partition::receiver_clusters)
-    return receiver_clusters(c, scene, body, begin, end);
+    return receiver_clusters(c, scene, body, begin, end, parts);
   // Without perspective one map's texels are right everywhere.
-  if (c.camera.orthographic) return {};
+  if (c.camera.orthographic) return;
   if (c.options.split.partition == Partition::separating_plane)
-    return separated_parts(c, scene, body, begin, end);
-  return frustum_faces(c, scene, body, begin, end);
+    return separated_parts(c, scene, body, begin, end, parts);
+  frustum_faces(c, scene, body, begin, end, parts);
 }
 
-void plan_part(const PlanContext& c, const Part& part, ShadowPlan& plan) noexcept {
-  MapRequest request = request_of(part);
+[[gnu::noinline]] void plan_part(const PlanContext& c, const Polytope& body, const Part& part,
+                                 ShadowPlan& plan) noexcept {
+  const Polytope inside = inside_of(c, body, part);
+  MapRequest request = request_of(part, inside);
   request.slot.cascade = part.index;
   request.slot.depth_begin = part.begin;
   request.slot.depth_end = part.end;
@@ -597,19 +621,20 @@ void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& pl
   const double begin = range.depth[0], end = range.depth[1];
   Polytope body = scene.body;
   clip_to_slab(body, c.axes.forward, begin, end);
-  Parts whole;
   Part all;
   all.begin = begin;
   all.end = end;
   all.frame = scene.space.frame;
   all.warp = &scene.warp;
-  add_part(c, body, all, whole);
-  const Parts parts = divided(c, scene, body, begin, end);
-  const bool gains = parts.count > 1 && parts.objective < whole.objective * (1.0 - kLeastGain);
+  PartsSum whole;
+  weigh_part(c, body, all, whole);
+  Parts parts;
+  divide(c, scene, body, begin, end, parts);
+  const bool gains = parts.sum.count > 1 && parts.sum.objective < whole.objective * (1.0 - kLeastGain);
   const bool clusters = c.options.split.partition == Partition::receiver_clusters;
   if (const int rivals = rival_cascades(c); rivals > 0 && (gains || parts.no_balance || clusters)) {
     const double cascades = cascades_objective(c, scene, body, begin, end, rivals);
-    const double beaten = gains ? parts.objective : whole.objective * (1.0 - kLeastGain);
+    const double beaten = gains ? parts.sum.objective : whole.objective * (1.0 - kLeastGain);
     if (cascades < beaten) {
       // As many maps, and better ones.
       plan_cascades(c, scene, rivals, equal_sizes(c.options.resolution.max_size), nullptr, plan);
@@ -618,7 +643,7 @@ void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& pl
     }
   }
   if (!gains) {
-    const double ratio = parts.count > 1 ? parts.objective / whole.objective : 1.0;
+    const double ratio = parts.sum.count > 1 ? parts.sum.objective / whole.objective : 1.0;
     omit(plan, {OmissionKind::partition_without_gain, -1, ratio, 0.0, 0});
   }
   if (gains && parts.most_maps) {
@@ -626,8 +651,9 @@ void plan_parts(const PlanContext& c, const ParallelScene& scene, ShadowPlan& pl
     omit(plan, {OmissionKind::faces_less_divided, -1, fewest, asked, 0});
   }
   plan.selection = gains ? MapSelection::first_holding : MapSelection::view_depth;
-  const Parts& chosen = gains ? parts : whole;
-  for (int i = 0; i < chosen.count; ++i) plan_part(c, chosen.part[static_cast<std::size_t>(i)], plan);
+  for (int i = 0; gains && i < parts.sum.count; ++i)
+    plan_part(c, body, parts.part[static_cast<std::size_t>(i)], plan);
+  if (!gains && whole.count > 0) plan_part(c, body, all, plan);
 }
 
 }  // namespace gnomon

@@ -26,7 +26,8 @@ struct VisibleReceivers {
   Polytope body;
   DepthRange depths{};  // where there is a body
 
-  explicit VisibleReceivers(const PlanContext& c) noexcept : body(view_body(c)) {
+  /// Out of line: what follows need not make room for the bodies on the way.
+  [[gnu::noinline]] explicit VisibleReceivers(const PlanContext& c) noexcept : body(view_body(c)) {
     const auto receive = [&](Polytope& part) {
       clip(part, visible_bounds(part, c.bounds.receivers, c.camera.position));
     };
@@ -147,35 +148,57 @@ void resume(const Light& light, PlanHistory& history, PlanContext& c) noexcept {
   for (PlanHistory::Map& map : history.map) map.frame = -1;
 }
 
-/// Fills in the plan of one frame; `history` may be nullptr. `views`: as PlanCase.
-void plan_frame(const View& view, const Light& light, const SceneBounds& bounds, const PlanOptions& options,
-                std::size_t views, PlanHistory* history, ShadowPlan& plan) noexcept {
-  plan.invalid_field = first_invalid_field(view, light, bounds, options);
-  if (!plan.invalid_field.empty()) return;
-  if (std::isinf(view.camera.far_depth)) {
-    View finite = view;
-    finite.camera = with_finite_far(view.camera, bounds.receivers);
-    plan_frame(finite, light, bounds, options, views, history, plan);
-    return;
+void plan_by_light(PlanContext& c, const Light& light, const Resolved& resolved, const VisibleDepths* visible,
+                   PlanHistory* history, ShadowPlan& plan) noexcept {
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
+    plan_parallel(c, *sun, resolved, visible, history, plan);
+  } else {
+    plan_local(c, light, resolved, history, plan);
   }
+}
+
+/// Out of line: other plans need not make room for the points.
+[[gnu::noinline]] void plan_by_seen(PlanContext& c, const View& view, const Light& light,
+                                    const Resolved& resolved, PlanHistory* history,
+                                    ShadowPlan& plan) noexcept {
+  const SeenPoints seen = view.points_world.empty() ? first_hits(view.camera, c.axes, c.bounds.receivers)
+                                                    : some_of(view.camera, c.axes, view.points_world);
+  c.seen = seen.points();
+  plan_by_light(c, light, resolved, view.depths, history, plan);
+}
+
+/// Fills in the plan of one frame whose camera sees to a finite depth; `history` may be nullptr. `views`: as
+/// PlanCase.
+[[gnu::noinline]] void plan_finite(const View& view, const Light& light, const SceneBounds& bounds,
+                                   const PlanOptions& options, std::size_t views, PlanHistory* history,
+                                   ShadowPlan& plan) noexcept {
   const bool has_depths = view.depths != nullptr && !view.depths->empty();
   const Resolved resolved = resolve(options, {light, view.camera.orthographic, views, history != nullptr,
                                               has_depths, !view.points_world.empty()});
   PlanContext context = begin_plan(view.camera, bounds, resolved, plan);
   if (history != nullptr) resume(light, *history, context);
   if (resolved.follows_points) context.visible_points = view.points_world;
-  SeenPoints seen;
   if (resolved.counts_seen) {
-    seen = view.points_world.empty() ? first_hits(view.camera, context.axes, bounds.receivers)
-                                     : some_of(view.camera, context.axes, view.points_world);
-    context.seen = seen.points();
-  }
-  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
-    plan_parallel(context, *sun, resolved, view.depths, history, plan);
+    plan_by_seen(context, view, light, resolved, history, plan);
   } else {
-    plan_local(context, light, resolved, history, plan);
+    plan_by_light(context, light, resolved, view.depths, history, plan);
   }
   omit(plan, resolved.of_plan);
+}
+
+/// The same for any camera.
+void plan_frame(const View& view, const Light& light, const SceneBounds& bounds, const PlanOptions& options,
+                std::size_t views, PlanHistory* history, ShadowPlan& plan) noexcept {
+  plan.invalid_field = first_invalid_field(view, light, bounds, options);
+  if (!plan.invalid_field.empty()) return;
+  if (!std::isinf(view.camera.far_depth)) {
+    plan_finite(view, light, bounds, options, views, history, plan);
+    return;
+  }
+  View finite = view;
+  finite.camera = with_finite_far(view.camera, bounds.receivers);
+  plan.invalid_field = first_invalid_field(finite, light, bounds, options);
+  if (plan.invalid_field.empty()) plan_finite(finite, light, bounds, options, views, history, plan);
 }
 
 /// The first broken field of any camera, or of what they share.
@@ -216,11 +239,7 @@ void plan_shared(std::span<const SharedView> views, const Camera& mean, const Li
                  const SceneBounds& bounds, const Resolved& resolved, ShadowPlan& plan) noexcept {
   PlanContext context = begin_plan(mean, bounds, resolved, plan);
   context.views = views;
-  if (const auto* sun = std::get_if<DirectionalLight>(&light)) {
-    plan_parallel(context, *sun, resolved, nullptr, nullptr, plan);
-  } else {
-    plan_local(context, light, resolved, nullptr, plan);
-  }
+  plan_by_light(context, light, resolved, nullptr, nullptr, plan);
 }
 
 }  // namespace

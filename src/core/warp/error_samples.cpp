@@ -145,11 +145,11 @@ GNOMON_WIDE void find_points(const ViewInLight& view, std::size_t first, PixelLa
   const double ux = view.up.x, uy = view.up.y, uz = view.up.z;
   const std::size_t n = lanes.count;
   for (std::size_t i = first; i < n; ++i) {
-    const double x = lanes.x[i], y = lanes.y[i], depth = lanes.z[i] * lane::exp(lanes.size[i]);
+    const double x = lanes.x[i], y = lanes.y[i], depth = lanes.z()[i] * lane::exp(lanes.size()[i]);
     lanes.x[i] = (fx + rx * x + ux * y) * depth;
     lanes.y[i] = (fy + ry * x + uy * y) * depth;
-    lanes.z[i] = (fz + rz * x + uz * y) * depth;
-    lanes.size[i] = 1.0;
+    lanes.z()[i] = (fz + rz * x + uz * y) * depth;
+    lanes.size()[i] = 1.0;
   }
 }
 
@@ -229,9 +229,9 @@ GNOMON_WIDE void find_parallel(const PixelTerms& terms, PixelLanes& l) noexcept 
   const Vector right{t.right.x, t.right.y, t.right.z}, up{t.up.x, t.up.y, t.up.z};
   const std::size_t n = whole_lanes(l.count);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vector p{l.x[i], l.y[i], l.z[i]};
+    const Vector p{l.x[i], l.y[i], l.z()[i]};
     const Vector eye = eye_ray(t, p), sum{eye.x, eye.y, eye.z - 1.0};
-    const double twice = mirror_factor(dot(sum, sum)), scale = extent(t, p, l.size[i]);
+    const double twice = mirror_factor(dot(sum, sum)), scale = extent(t, p, l.size()[i]);
     const Vector a = mirrored(right, eye, sum, twice), b = mirrored(up, eye, sum, twice);
     const double xx = a.x * scale, yx = a.y * scale, xy = b.x * scale, yy = b.y * scale;
     l.xx[i] = xx;
@@ -247,7 +247,7 @@ GNOMON_WIDE void find_local(const PixelTerms& terms, PixelLanes& l) noexcept {
   const Vector right{t.right.x, t.right.y, t.right.z}, up{t.up.x, t.up.y, t.up.z};
   const std::size_t n = whole_lanes(l.count);
   for (std::size_t i = 0; i < n; ++i) {
-    const Vector p{l.x[i], l.y[i], l.z[i]};
+    const Vector p{l.x[i], l.y[i], l.z()[i]};
     const Vector from{p.x - t.apex.x, p.y - t.apex.y, p.z - t.apex.z};
     const double largest = max_of(max_of(std::abs(from.x), std::abs(from.y)), std::abs(from.z));
     const double inverse = 1.0 / divisor(largest, kSmallest);
@@ -256,7 +256,7 @@ GNOMON_WIDE void find_local(const PixelTerms& terms, PixelLanes& l) noexcept {
     const Vector eye = eye_ray(t, p);
     const Vector sum{eye.x + scaled.x * per_length, eye.y + scaled.y * per_length,
                      eye.z + scaled.z * per_length};
-    const double twice = mirror_factor(dot(sum, sum)), scale = extent(t, p, l.size[i]);
+    const double twice = mirror_factor(dot(sum, sum)), scale = extent(t, p, l.size()[i]);
     const Vector a = mirrored(right, eye, sum, twice), b = mirrored(up, eye, sum, twice);
     const double distance = -from.z, h = inverse_or_0(distance), x = from.x * h, y = from.y * h,
                  unit = scale * h;
@@ -277,7 +277,7 @@ GNOMON_WIDE void find_local(const PixelTerms& terms, PixelLanes& l) noexcept {
 
 void PixelLanes::fill_lanes() noexcept {
   for (std::size_t i = count; count > 0 && i < whole_lanes(count); ++i) {
-    for (auto* lane : {&x, &y, &xx, &xy, &yx, &yy, &inverse_determinant, &z, &size}) (*lane)[i] = (*lane)[0];
+    for (auto* lane : {&x, &y, &xx, &xy, &yx, &yy, &inverse_determinant}) (*lane)[i] = (*lane)[0];
   }
 }
 
@@ -332,8 +332,8 @@ void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noex
   for (std::size_t i = first; i < lanes.count; ++i) {
     for (int f = 0; f < focus->face_count; ++f) {
       const Plane& plane = focus->plane[static_cast<std::size_t>(f)];
-      if (glm::dot(plane.normal, {lanes.x[i], lanes.y[i], lanes.z[i]}) + plane.offset < 0.0)
-        lanes.size[i] = input.focus_weight;
+      if (glm::dot(plane.normal, {lanes.x[i], lanes.y[i], lanes.z()[i]}) + plane.offset < 0.0)
+        lanes.size()[i] = input.focus_weight;
     }
   }
 }
@@ -364,8 +364,8 @@ std::size_t find_pixels(const WarpInput& input, PixelLanes& lanes) noexcept {
   for (std::size_t i = known; i < lanes.count; ++i) {
     // No number is unknown, too.
     if (!(std::abs(lanes.inverse_determinant[i]) > 0.0)) continue;
-    for (auto* lane : {&lanes.x, &lanes.y, &lanes.xx, &lanes.xy, &lanes.yx, &lanes.yy,
-                       &lanes.inverse_determinant, &lanes.z, &lanes.size})
+    for (auto* lane :
+         {&lanes.x, &lanes.y, &lanes.xx, &lanes.xy, &lanes.yx, &lanes.yy, &lanes.inverse_determinant})
       (*lane)[kept] = (*lane)[i];
     ++kept;
   }

@@ -15,17 +15,19 @@ struct PixelLanes {
   static constexpr std::size_t kMost = 192;
   static_assert(kMost % kDoubleLanes == 0 && kMost >= whole_lanes(2 * kMaxVertices));
   alignas(64) std::array<double, kMost> x, y, xx, xy, yx, yy, inverse_determinant;
-  // Before find_pixels, x and y are the point's along the light frame's axes, and z is the third; the pixel
-  // there counts as `size` times as wide as it is.
-  alignas(64) std::array<double, kMost> z, size;
   std::size_t count = 0;
+
+  // Before find_pixels, x and y are the point's along the light frame's axes, and z is the third; the pixel
+  // there counts as `size` times as wide as it is. Both lie where find_pixels writes.
+  [[nodiscard]] std::array<double, kMost>& z() noexcept { return xx; }
+  [[nodiscard]] std::array<double, kMost>& size() noexcept { return xy; }
 
   void add(const glm::dvec3& point, double times) noexcept {
     if (count == kMost) return;
     x[count] = point.x;
     y[count] = point.y;
-    z[count] = point.z;
-    size[count++] = times;
+    z()[count] = point.z;
+    size()[count++] = times;
   }
   /// Copies of the first fill the last lanes.
   void fill_lanes() noexcept;

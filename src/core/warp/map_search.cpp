@@ -267,14 +267,19 @@ constexpr int quick_rounds(Objective objective) noexcept {
   return kRounds[static_cast<std::size_t>(objective)];
 }
 
-/// From the best start on.
-Judged quick_search(const WarpInput& input, PlaneError& error) noexcept {
+/// The best start. Out of line, as the eight below: what turns its sides need not make room for the search.
+[[gnu::noinline]] Judged best_start(const WarpInput& input, const PlaneError& error) noexcept {
   RowSearch search(input, error);
   constexpr double kRadius = 0.16, kLeastRadius = 0.2, kFan = 0.15;
   RowChoice rows = first_rows(search, input).best();
   rows = best_around(search, rows, max_of(kLeastRadius, kRadius * length_of(rows.fall_off)), kFan);
   const WarpChoice choice = search.choice(rows);
-  return turned(input, error, {choice, error.value(choice)}, quick_rounds(input.objective), kStep);
+  return {choice, error.value(choice)};
+}
+
+/// From the best start on.
+Judged quick_search(const WarpInput& input, PlaneError& error) noexcept {
+  return turned(input, error, best_start(input, error), quick_rounds(input.objective), kStep);
 }
 
 /// The better ones first; those that are alike stay in order.
@@ -287,21 +292,26 @@ void sort(std::array<Judged, kFloatLanes>& maps) noexcept {
   }
 }
 
-/// From eight starts on, and longer from those that come to more.
-Judged thorough_search(const WarpInput& input, PlaneError& error) noexcept {
+[[gnu::noinline]] void find_starts(const WarpInput& input, const PlaneError& error,
+                                   std::array<Judged, kFloatLanes>& starts) noexcept {
   RowSearch search(input, error);
+  const RowLanes first = first_rows(search, input);
+  for (std::size_t l = 0; l < kFloatLanes; ++l) {
+    starts[l].choice = search.choice(first.at(l));
+    starts[l].value = error.value(starts[l].choice);
+  }
+}
+
+/// From eight starts on, and longer from those that come to more.
+[[gnu::noinline]] Judged thorough_search(const WarpInput& input, PlaneError& error) noexcept {
   struct Level {
     std::size_t starts;
     int rounds;
     float step;
   };
   constexpr std::array<Level, 4> kLevels = {{{8, 3, 0.2F}, {4, 6, 0.1F}, {2, 10, 0.05F}, {1, 16, 0.05F}}};
-  const RowLanes first = first_rows(search, input);
   std::array<Judged, kFloatLanes> best;
-  for (std::size_t l = 0; l < kFloatLanes; ++l) {
-    best[l].choice = search.choice(first.at(l));
-    best[l].value = error.value(best[l].choice);
-  }
+  find_starts(input, error, best);
   for (const Level& level : kLevels) {
     sort(best);
     for (std::size_t i = 0; i < level.starts; ++i)
@@ -362,7 +372,7 @@ WarpChoice search_map(const WarpInput& given, SearchEffort effort) noexcept {
   WarpInput input = given;
   if (given.start != nullptr) input.most_stretch = min_of(given.most_stretch, given.start->most_stretch);
   PlaneError error(input, true);
-  if (error.corners().count == 0) return input.unwarped;
+  if (error.corner_count() == 0) return input.unwarped;
   const double without = error.value(input.unwarped);
   WarpChoice choice;
   if (use == StartUse::none || !follow(input, error, without, choice)) {

@@ -20,9 +20,48 @@ namespace {
 
 constexpr double kShareAbove95 = 0.05;
 
-bool same_map(const WarpChoice& a, const WarpChoice& b) noexcept {
-  return a.kappa == b.kappa && a.axis == b.axis && a.centre == b.centre && a.row_a == b.row_a &&
-         a.row_b == b.row_b;
+/// The part of a body whose error counts: all of it where nothing would be left. `counted`: room for it.
+const Polytope& from_pseudo_near(const WarpInput& input, const Polytope& body, Polytope& counted) noexcept {
+  if (!(input.pseudo_near > 0.0)) return body;
+  counted = body;
+  clip(counted, Plane{input.view.forward, -input.pseudo_near});
+  return counted.empty() ? body : counted;
+}
+
+/// nullptr: there is none.
+const Polytope* focus_of(const WarpInput& input) noexcept {
+  return input.focus != nullptr && !input.focus->empty() ? input.focus : nullptr;
+}
+
+/// This and others are out of line: together they would take more stack than any of them.
+[[gnu::noinline]] void add_clipped_vertices(const WarpInput& input, const Polytope& body, double size,
+                                            PixelLanes& lanes) noexcept {
+  Polytope counted;
+  add_vertices(from_pseudo_near(input, body, counted), size, lanes);
+}
+
+void add_counted_vertices(const WarpInput& input, const Polytope& body, double size,
+                          PixelLanes& lanes) noexcept {
+  if (input.pseudo_near > 0.0) {
+    add_clipped_vertices(input, body, size, lanes);
+  } else {
+    add_vertices(body, size, lanes);
+  }
+}
+
+/// The focus's vertices first, as there may be no room for all.
+void add_corners(const WarpInput& input, PixelLanes& lanes) noexcept {
+  const Polytope* const focus = focus_of(input);
+  if (focus != nullptr) add_counted_vertices(input, *focus, 1.0, lanes);
+  add_counted_vertices(input, *input.polytope, focus != nullptr ? input.focus_weight : 1.0, lanes);
+}
+
+/// How many of the corners something is known of.
+[[gnu::noinline]] std::size_t known_corners(const WarpInput& input) noexcept {
+  PixelLanes corners;
+  add_corners(input, corners);
+  find_pixels(input, corners);
+  return corners.count;
 }
 
 }  // namespace
@@ -51,12 +90,8 @@ PlaneError::PlaneError(const WarpInput& input, bool searched, int set) noexcept
     distance_ = max_of(distance_, largest_component({p.x, p.y, p.z}));
   }
   height_range_ = high - low;
-  Polytope counted, counted_focus;
-  const Polytope &body = from_pseudo_near(*input.polytope, counted), *focus = input.focus;
-  if (focus != nullptr) focus = &from_pseudo_near(*focus, counted_focus);
-  const bool focused = focus != nullptr && !focus->empty();
-  add_samples(body, focused ? focus : nullptr, searched, set);
-  find_corners(body, focused ? focus : nullptr);
+  add_samples(searched, set);
+  if (!corners_are_samples()) corner_count_ = known_corners(input);
   all_ = sample_.count;
   above_ = above(all_);
 }
@@ -69,11 +104,14 @@ std::size_t PlaneError::above(std::size_t samples) const noexcept {
 void PlaneError::count_bound() noexcept {
   // No part of the points bounds a percentile, or a mean.
   if (share_ != 0.0 || mean_) return;
-  sample_.count = all_ < corners_.count ? all_ : corners_.count;
+  sample_.count = all_ < corner_count_ ? all_ : corner_count_;
   above_ = above(sample_.count);
 }
 
-void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept {
+[[gnu::noinline]] void PlaneError::add_samples(bool searched, int set) noexcept {
+  Polytope counted, counted_focus;
+  const Polytope &body = from_pseudo_near(input_, *input_.polytope, counted), *focus = focus_of(input_);
+  if (focus != nullptr) focus = &from_pseudo_near(input_, *focus, counted_focus);
   // Fewer samples make no percentile: the body shows in a few pixels only.
   constexpr std::size_t kTooFew = 20;
   if (input_.objective == Objective::p95 && !input_.orthographic) {
@@ -106,26 +144,25 @@ void PlaneError::add_samples(const Polytope& body, const Polytope* focus, bool s
   if (input_.light.perspective || inside) add_faces(body, outside, sample_);
   if (inside && !input_.orthographic) add_visible_points(input_, set, sample_);
   complete_ = find_pixels(input_, sample_) >= vertices;
+  corner_count_ = vertices;
 }
 
-void PlaneError::find_corners(const Polytope& body, const Polytope* focus) noexcept {
-  // First, as there may be no room for all.
-  if (focus != nullptr) add_vertices(*focus, 1.0, corners_);
-  add_vertices(body, focus != nullptr ? input_.focus_weight : 1.0, corners_);
-  // Of a percentile's samples, and of those that lack a vertex, corners are no part.
-  if (share_ != 0.0 || mean_ || !complete_) {
-    find_pixels(input_, corners_);
+void PlaneError::find_corners(PixelLanes& corners) const noexcept {
+  if (!corners_are_samples()) {
+    add_corners(input_, corners);
+    find_pixels(input_, corners);
     return;
   }
-  const std::size_t n = whole_lanes(corners_.count);
+  corners.count = corner_count_;
+  const std::size_t n = whole_lanes(corner_count_);
   const auto copy = [n](const auto& from, auto& to) { std::copy_n(from.begin(), n, to.begin()); };
-  copy(sample_.x, corners_.x);
-  copy(sample_.y, corners_.y);
-  copy(sample_.xx, corners_.xx);
-  copy(sample_.xy, corners_.xy);
-  copy(sample_.yx, corners_.yx);
-  copy(sample_.yy, corners_.yy);
-  copy(sample_.inverse_determinant, corners_.inverse_determinant);
+  copy(sample_.x, corners.x);
+  copy(sample_.y, corners.y);
+  copy(sample_.xx, corners.xx);
+  copy(sample_.xy, corners.xy);
+  copy(sample_.yx, corners.yx);
+  copy(sample_.yy, corners.yy);
+  copy(sample_.inverse_determinant, corners.inverse_determinant);
 }
 
 void PlaneError::count_worst(const WarpChoice& choice) noexcept {
@@ -133,64 +170,59 @@ void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   // Without an area there is no error.
   if (sample_.count == 0 || rows == 0.0 || choice.kappa * distance_ > kMaxKappaDistance) return;
   if (mean_) return;  // all of them count
+  Rows of_map;
   // Of the squares. A percentile may come to rest farther below its first value.
   constexpr std::array<double, 4> kNearWorst = {0.6, 0.5, 0.12, 0.5};
   const bool storage = input_.objective == Objective::storage;
   const double near_worst = kNearWorst[static_cast<std::size_t>(input_.objective)];
-  // Mostly it was asked for last.
-  const bool known = worst_ > 0.0 && same_map(choice, valued_);
   double most_x = 0.0, most_y = 0.0;
   if (storage) {
-    if (!known) find_rows(choice);
+    find_rows(choice, of_map);
     const std::size_t n = whole_lanes(all_);
-    most_x = lane_range(row_x_.data(), n, lanes_).high;
-    most_y = lane_range(row_y_.data(), n, lanes_).high;
+    most_x = lane_range(of_map.x.data(), n, lanes_).high;
+    most_y = lane_range(of_map.y.data(), n, lanes_).high;
   } else {
-    if (!known && !std::isfinite(value(choice))) return;
-    most_x = worst_;
-    for (std::size_t i = 0; i < all_; ++i) row_y_[i] = 0.0;
+    most_x = squared(choice, of_map);
+    if (!(most_x < std::numeric_limits<double>::infinity())) return;
+    for (std::size_t i = 0; i < all_; ++i) of_map.y[i] = 0.0;
   }
   std::size_t kept = 0;
   for (std::size_t i = 0; i < all_; ++i) {
-    if (!(row_x_[i] > near_worst * most_x || row_y_[i] > near_worst * most_y)) continue;
+    if (!(of_map.x[i] > near_worst * most_x || of_map.y[i] > near_worst * most_y)) continue;
     for (auto* lane : {&sample_.x, &sample_.y, &sample_.xx, &sample_.xy, &sample_.yx, &sample_.yy,
                        &sample_.inverse_determinant})
       std::swap((*lane)[kept], (*lane)[i]);
     ++kept;
   }
-  worst_ = 0.0;
   // The lanes past the last kept one hold points, too, and may as well count.
   if (kept > 0) sample_.count = kept;
 }
 
-/// The part of the body whose error counts: all of it where nothing would be left.
-const Polytope& PlaneError::from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept {
-  if (!(input_.pseudo_near > 0.0)) return body;
-  counted = body;
-  clip(counted, Plane{input_.view.forward, -input_.pseudo_near});
-  return counted.empty() ? body : counted;
+double PlaneError::value(const WarpChoice& choice) const noexcept {
+  Rows rows;
+  return std::sqrt(squared(choice, rows));
 }
 
-double PlaneError::value(const WarpChoice& choice) noexcept {
+/// The square of the value, infinite for one that is no number.
+double PlaneError::squared(const WarpChoice& choice, Rows& of_map) const noexcept {
   // A body with corners of which nothing is known is no ground to choose a warp on.
   const double rows = choice.row_a.x * choice.row_b.y - choice.row_a.y * choice.row_b.x;
   if ((!complete_ && choice.kappa > 0.0) || sample_.count == 0 || body_.count == 0 || rows == 0.0 ||
       choice.kappa * distance_ > kMaxKappaDistance)
     return std::numeric_limits<double>::infinity();
-  find_rows(choice);
-  const double squared = input_.objective == Objective::storage ? storage_squared() : worst_squared();
-  valued_ = choice;
-  worst_ = sample_.count == all_ ? squared : 0.0;
-  return squared < std::numeric_limits<double>::infinity() ? std::sqrt(squared)
-                                                           : std::numeric_limits<double>::infinity();
+  find_rows(choice, of_map);
+  const double square =
+      input_.objective == Objective::storage ? storage_squared(of_map) : worst_squared(of_map);
+  return square < std::numeric_limits<double>::infinity() ? square : std::numeric_limits<double>::infinity();
 }
 
-GNOMON_WIDE void PlaneError::find_rows(const WarpChoice& choice) noexcept {
+GNOMON_WIDE void PlaneError::find_rows(const WarpChoice& choice, Rows& of_map) const noexcept {
+  Rows& __restrict rows = of_map;
   const double axis_x = choice.axis.x, axis_y = choice.axis.y;
   const double a_x = choice.row_a.x, a_y = choice.row_a.y, b_x = choice.row_b.x, b_y = choice.row_b.y;
   const double kappa = choice.kappa, centre = choice.centre;
   // The body's image, as plane_map has it.
-  std::array<double, kMaxSamples>&along = row_x_, &a = row_y_, &b = inverse_;
+  std::array<double, kMaxSamples>&along = rows.x, &a = rows.y, &b = rows.inverse;
   const std::size_t corners = body_.count;
   for (std::size_t i = 0; i < corners; ++i) along[i] = body_.x[i] * axis_x + body_.y[i] * axis_y;
   const LaneRange u_range = lane_range(along.data(), corners, lanes_);
@@ -227,42 +259,42 @@ GNOMON_WIDE void PlaneError::find_rows(const WarpChoice& choice) noexcept {
     const double jyx = bx * sample_.xx[i] + by * sample_.yx[i], jyy = bx * sample_.xy[i] + by * sample_.yy[i];
     const double inverse_determinant = w * w * w * inverse_area * sample_.inverse_determinant[i];
     const double square = inverse_determinant * inverse_determinant;
-    row_x_[i] = (jxx * jxx + jxy * jxy) * square;
-    row_y_[i] = (jyx * jyx + jyy * jyy) * square;
-    inverse_[i] = std::abs(inverse_determinant);
+    rows.x[i] = (jxx * jxx + jxy * jxy) * square;
+    rows.y[i] = (jyx * jyx + jyy * jyy) * square;
+    rows.inverse[i] = std::abs(inverse_determinant);
   }
 }
 
-double PlaneError::storage_squared() const noexcept {
+double PlaneError::storage_squared(const Rows& rows) const noexcept {
   const std::size_t n = whole_lanes(sample_.count);
-  return lane_range(row_x_.data(), n, lanes_).high * lane_range(row_y_.data(), n, lanes_).high;
+  return lane_range(rows.x.data(), n, lanes_).high * lane_range(rows.y.data(), n, lanes_).high;
 }
 
 /// Half the sum of both squared extents, and their product's root: the larger of the two squares.
-GNOMON_WIDE void PlaneError::find_larger() noexcept {
+GNOMON_WIDE void PlaneError::find_larger(Rows& rows) const noexcept {
   const std::size_t whole = whole_lanes(sample_.count);
   for (std::size_t i = 0; i < whole; ++i) {
-    const double half = 0.5 * (row_x_[i] + row_y_[i]), area = inverse_[i];
+    const double half = 0.5 * (rows.x[i] + rows.y[i]), area = rows.inverse[i];
     const double spread = (half - area) * (half + area);
-    row_x_[i] = half + std::sqrt(spread > 0.0 ? spread : 0.0);
+    rows.x[i] = half + std::sqrt(spread > 0.0 ? spread : 0.0);
   }
 }
 
-double PlaneError::worst_squared() noexcept {
+double PlaneError::worst_squared(Rows& rows) const noexcept {
   const std::size_t n = sample_.count, whole = whole_lanes(n);
   if (mean_) {
     double sum = 0.0;
-    for (std::size_t i = 0; i < n; ++i) sum += std::sqrt(0.5 * (row_x_[i] + row_y_[i]));
+    for (std::size_t i = 0; i < n; ++i) sum += std::sqrt(0.5 * (rows.x[i] + rows.y[i]));
     const double mean = sum / static_cast<double>(n);
     return mean * mean;
   }
-  find_larger();
-  if (share_ == 0.0) return lane_range(row_x_.data(), whole, lanes_).high;
+  find_larger(rows);
+  if (share_ == 0.0) return lane_range(rows.x.data(), whole, lanes_).high;
   // The largest few, smallest of them first: as many as may exceed the value, and the value itself.
   const std::size_t wanted = above_ + 1;
   std::array<double, kMaxAbove + 1> top{};
   for (std::size_t i = 0; i < n; ++i) {
-    const double value = row_x_[i];
+    const double value = rows.x[i];
     if (!(value > top[0])) continue;
     std::size_t k = 0;
     for (; k + 1 < wanted && top[k + 1] < value; ++k) top[k] = top[k + 1];

@@ -8,6 +8,7 @@
 #include "gnomon/extend/warp.hpp"
 #include "lanes/lanes.hpp"
 #include "warp/error_samples.hpp"
+#include "warp/plane_map.hpp"
 
 namespace gnomon {
 
@@ -25,9 +26,10 @@ struct ChoiceLanes {
 };
 using LaneAnswers = std::array<bool, kDoubleLanes>;
 
-/// The light-plane positions of a body's vertices, in whole lanes.
+/// The light-plane positions of a body's points, in whole lanes.
 struct BodyLanes {
-  alignas(64) std::array<double, whole_lanes(2 * kMaxVertices)> x, y;
+  static constexpr std::size_t kMost = whole_lanes(kMaxBodyPoints);
+  alignas(64) std::array<double, kMost> x, y;
   std::size_t points = 0;  // of the body
   std::size_t count = 0;   // a multiple of kDoubleLanes
   explicit BodyLanes(const WarpInput& input) noexcept;
@@ -50,7 +52,7 @@ class PlaneError {
 
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
   /// one.
-  [[nodiscard]] double value(const WarpChoice& choice) noexcept;
+  [[nodiscard]] double value(const WarpChoice& choice) const noexcept;
   /// Whether the objective under each of these choices is below `value`, but for rounding; false where
   /// `usable` is false as well.
   void below(const ChoiceLanes& choices, double value, LaneAnswers& is_below) noexcept;
@@ -64,8 +66,9 @@ class PlaneError {
   /// From now on counts some points alone, at first the vertices, where the objective there is never above
   /// the objective at all points.
   void count_bound() noexcept;
-  /// The body's vertices: few points that bound the error nearly everywhere.
-  [[nodiscard]] const PixelLanes& corners() const noexcept { return corners_; }
+  /// The body's vertices: few points that bound the error nearly everywhere. Before count_worst alone.
+  void find_corners(PixelLanes& corners) const noexcept;
+  [[nodiscard]] std::size_t corner_count() const noexcept { return corner_count_; }
   [[nodiscard]] const BodyLanes& body() const noexcept { return body_; }
   /// The samples that count, and how many of them may exceed the value asked for.
   [[nodiscard]] const PixelLanes& counted() const noexcept { return sample_; }
@@ -74,10 +77,16 @@ class PlaneError {
   [[nodiscard]] bool is_mean() const noexcept { return mean_; }
 
  private:
-  [[nodiscard]] const Polytope& from_pseudo_near(const Polytope& body, Polytope& counted) const noexcept;
-  void add_samples(const Polytope& body, const Polytope* focus, bool searched, int set) noexcept;
-  void find_corners(const Polytope& body, const Polytope* focus) noexcept;
-  void find_rows(const WarpChoice& choice) noexcept;
+  /// Of a percentile's samples, of those that are seen, and of those that lack a vertex, corners are no part.
+  [[nodiscard]] bool corners_are_samples() const noexcept { return share_ == 0.0 && !mean_ && complete_; }
+  void add_samples(bool searched, int set) noexcept;
+  /// Of d(texel)/d(pixel) under a choice: squared lengths of its rows over the square of its determinant, and
+  /// the inverse of that. Not kept: searches go deep, and stacks may be small.
+  struct Rows {
+    alignas(64) std::array<double, kMaxSamples> x, y, inverse;
+  };
+  void find_rows(const WarpChoice& choice, Rows& rows) const noexcept;
+  [[nodiscard]] double squared(const WarpChoice& choice, Rows& rows) const noexcept;
   [[nodiscard]] std::size_t above(std::size_t samples) const noexcept;
   struct ExtentLanes;
   struct MapLanes;
@@ -86,26 +95,22 @@ class PlaneError {
   void find_storage(const MapLanes& map, DoubleLanes& value) const noexcept;
   void count_above(const MapLanes& map, double square, DoubleLanes& count) const noexcept;
   void find_mean(const MapLanes& map, DoubleLanes& value) const noexcept;
-  [[nodiscard]] double storage_squared() const noexcept;
-  [[nodiscard]] double worst_squared() noexcept;
-  void find_larger() noexcept;
+  [[nodiscard]] double storage_squared(const Rows& rows) const noexcept;
+  [[nodiscard]] double worst_squared(Rows& rows) const noexcept;
+  void find_larger(Rows& rows) const noexcept;
 
   const WarpInput& input_;
   std::size_t all_ = 0;    // of the samples
   std::size_t above_ = 0;  // of those counted, as many as may exceed the value asked for
   std::size_t lanes_;      // kDoubleLanes, but not known when this is compiled: as in lane_range
+  std::size_t corner_count_ = 0;
   double height_range_ = 0.0, distance_ = 0.0;  // of the body, as plane_map takes them
   double farthest_ = 0.0;                       // depth of the body, where it counts
   bool complete_ = true;                        // no vertex was refused
   bool mean_ = false;                           // over the samples
   double share_ = 1.0;  // of the samples that may exceed the value asked for: 0.05 for p95
   BodyLanes body_;
-  PixelLanes corners_, sample_;
-  // Of d(texel)/d(pixel) under the choice last asked for: squared lengths of its rows over the square of its
-  // determinant, and the inverse of that. Before, the body's image.
-  alignas(64) std::array<double, kMaxSamples> row_x_, row_y_, inverse_;
-  WarpChoice valued_;
-  double worst_ = 0.0;  // square of the value under that choice, by all samples; 0: not known
+  PixelLanes sample_;
 };
 
 }  // namespace gnomon

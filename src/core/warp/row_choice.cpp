@@ -66,17 +66,17 @@ FallOff RowSearch::ahead(double share) const noexcept {
   return {0.0, fall_off_of(share * depth_range_)};
 }
 
-FallOff RowSearch::fitted() const noexcept {
+void RowSearch::fit(const PixelLanes& corners) noexcept {
   // Least squares of 1, x, y over the body's unit square, relative to the side of a pixel's square.
   std::array<std::array<double, 4>, 3> m{};
   const auto at = [&](double x, double y) {
     return glm::dvec2((x - middle_.x) / extent_.x, (y - middle_.y) / extent_.y);
   };
-  for (std::size_t i = 0; i < corners_.count; ++i) {
+  for (std::size_t i = 0; i < corners.count; ++i) {
     // Near enough to the third root, and roots of roots come cheap.
-    const double fourth = std::sqrt(std::sqrt(std::abs(corners_.inverse_determinant[i])));
+    const double fourth = std::sqrt(std::sqrt(std::abs(corners.inverse_determinant[i])));
     const double inverse = fourth * std::sqrt(std::sqrt(fourth));
-    const glm::dvec2 p = at(corners_.x[i], corners_.y[i]);
+    const glm::dvec2 p = at(corners.x[i], corners.y[i]);
     const std::array<double, 3> row{inverse, p.x * inverse, p.y * inverse};
     for (std::size_t j = 0; j < 3; ++j) {
       for (std::size_t k = j; k < 3; ++k) m[j][k] += row[j] * row[k];
@@ -99,10 +99,10 @@ FallOff RowSearch::fitted() const noexcept {
     high = max_of(high, constant + x * p.x + y * p.y);
   }
   const double length = std::sqrt(x * x + y * y);
-  if (!(length > 0.0 && std::isfinite(length))) return {};
+  if (!(length > 0.0 && std::isfinite(length))) return;
   const double ratio = low > 0.0 ? min_of(elementary::log(high / low), depth_range_) : depth_range_;
   const double scale = fall_off_of(ratio) / length;
-  return {x * scale, y * scale};
+  fitted_ = {x * scale, y * scale};
 }
 
 }  // namespace gnomon

@@ -61,7 +61,6 @@ struct RowSearch::Maps {
   alignas(64) FloatLanes s_x, s_y, s_1;  // across it
   alignas(64) FloatLanes w_x, w_y, w_1;
   alignas(64) FloatLanes x_low, x_high, y_low, y_high;  // of the image
-  alignas(64) std::array<FloatLanes, kMaxPoints> image_x, image_y;
   // The gradient of X times w^2 is (turn_x y + first_x, second_x - turn_x x), and Y's alike; then both over
   // the image's extents and times its area, so that they come out as extents of texels.
   alignas(64) FloatLanes turn_x, first_x, second_x, turn_y, first_y, second_y;
@@ -97,7 +96,6 @@ bool is_line(const WarpInput& input, const BodyLanes& body) noexcept {
 RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
     : lanes_(kDoubleLanes),
       fall_offs_(kFloatLanes),
-      corners_(error.corners()),
       body_(error.body()),
       objective_(input.objective),
       // Less what rounding adds.
@@ -122,29 +120,31 @@ RowSearch::RowSearch(const WarpInput& input, const PlaneError& error) noexcept
     farthest = max_of(farthest, p.depth);
   }
   depth_range_ = nearest > 0.0 && farthest > nearest ? elementary::log(farthest / nearest) : 0.0;
+  PixelLanes corners;
+  error.find_corners(corners);
   std::size_t smallest = 0;
-  for (std::size_t i = 1; i < corners_.count; ++i) {
-    if (std::abs(corners_.inverse_determinant[i]) > std::abs(corners_.inverse_determinant[smallest]))
+  for (std::size_t i = 1; i < corners.count; ++i) {
+    if (std::abs(corners.inverse_determinant[i]) > std::abs(corners.inverse_determinant[smallest]))
       smallest = i;
   }
-  origin_ = {corners_.x[smallest], corners_.y[smallest]};
+  origin_ = {corners.x[smallest], corners.y[smallest]};
   const double scale_x = 1.0 / extent_.x, scale_y = 1.0 / extent_.y;
   points_ = (body_.points + 3) / 4 * 4;
   for (std::size_t i = 0; i < points_; ++i) {
     point_x_[i] = static_cast<float>((body_.x[i] - origin_.x) * scale_x);
     point_y_[i] = static_cast<float>((body_.y[i] - origin_.y) * scale_y);
   }
-  find_samples();
+  find_samples(corners);
+  if (input.light.perspective) fit(corners);
 }
 
-GNOMON_WIDE void RowSearch::find_samples() noexcept {
-  const PixelLanes& samples = corners_;
+GNOMON_WIDE void RowSearch::find_samples(const PixelLanes& samples) noexcept {
   samples_ = samples.count;
   const double scale_x = 1.0 / extent_.x, scale_y = 1.0 / extent_.y, area = extent_.x * extent_.y;
   const double origin_x = origin_.x, origin_y = origin_.y;
   // The lanes past the last sample hold copies of the first.
   const std::size_t n = whole_lanes(samples_);
-  alignas(64) std::array<double, PixelLanes::kMost> xx, xy, yy, sum;
+  alignas(64) std::array<double, kMaxCorners> xx, xy, yy, sum;
   for (std::size_t i = 0; i < n; ++i) {
     const double inverse = samples.inverse_determinant[i] * area;
     const double ax = samples.xx[i] * scale_x * inverse, ay = samples.xy[i] * scale_x * inverse;
@@ -229,8 +229,6 @@ GNOMON_WIDE void RowSearch::find_image(Maps& maps) const noexcept {
   }
   for (std::size_t i = 0; i < n; i += 2) {
     const float x0 = point_x_[i], x1 = point_x_[i + 1], y0 = point_y_[i], y1 = point_y_[i + 1];
-    FloatLanes &image_x0 = m.image_x[i], &image_x1 = m.image_x[i + 1];
-    FloatLanes &image_y0 = m.image_y[i], &image_y1 = m.image_y[i + 1];
     for (std::size_t l = 0; l < lanes; ++l) {
       const float inverse0 = 1.0F / (m.w_x[l] * x0 + m.w_y[l] * y0 + m.w_1[l]);
       const float inverse1 = 1.0F / (m.w_x[l] * x1 + m.w_y[l] * y1 + m.w_1[l]);
@@ -242,10 +240,6 @@ GNOMON_WIDE void RowSearch::find_image(Maps& maps) const noexcept {
       m.x_high[l] = max_of(m.x_high[l], max_of(s0, s1));
       m.y_low[l] = min_of(m.y_low[l], min_of(u0, u1));
       m.y_high[l] = max_of(m.y_high[l], max_of(u0, u1));
-      image_x0[l] = s0;
-      image_x1[l] = s1;
-      image_y0[l] = u0;
-      image_y1[l] = u1;
     }
   }
 }
@@ -292,7 +286,8 @@ GNOMON_WIDE void RowSearch::find_directions(const RowLanes& candidates, float st
   }
 }
 
-/// Squared lengths of the rectangle's sides across each direction.
+/// Squared lengths of the rectangle's sides across each direction. The body's image is found again, four
+/// points at a time: all of it would take 9 kB of stack.
 GNOMON_WIDE void RowSearch::find_sides(Maps& maps) const noexcept {
   Maps& __restrict m = maps;
   constexpr std::size_t kBoth = 2 * kFan;
@@ -304,8 +299,16 @@ GNOMON_WIDE void RowSearch::find_sides(Maps& maps) const noexcept {
       high[d][l] = -kInfinity;
     }
   }
+  alignas(64) std::array<FloatLanes, 4> x, y;
   for (std::size_t i = 0; i < n; i += 4) {
-    const FloatLanes *const x = &m.image_x[i], *const y = &m.image_y[i];
+    for (std::size_t k = 0; k < 4; ++k) {
+      const float at_x = point_x_[i + k], at_y = point_y_[i + k];
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const float inverse = 1.0F / (m.w_x[l] * at_x + m.w_y[l] * at_y + m.w_1[l]);
+        x[k][l] = (m.s_x[l] * at_x + m.s_y[l] * at_y + m.s_1[l]) * inverse;
+        y[k][l] = (m.u_x[l] * at_x + m.u_y[l] * at_y - m.u_min[l]) * inverse;
+      }
+    }
     for (std::size_t d = 0; d < kBoth; ++d) {
       for (std::size_t l = 0; l < lanes; ++l) {
         const float by_x = m.x[d][l], by_y = m.y[d][l];
@@ -347,7 +350,7 @@ GNOMON_WIDE void RowSearch::find_products(Maps& maps) const noexcept {
   }
   // Two at a time: half as many numbers of the candidates to fetch.
   for (std::size_t i = 0; i < n; i += 2) {
-    const FormLanes::Form f0 = form_.at(i), f1 = form_.at(i + 1);
+    const Form::Form f0 = form_.at(i), f1 = form_.at(i + 1);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_FORM(f0, 0);
       GNOMON_FORM(f1, 1);
@@ -384,7 +387,7 @@ GNOMON_WIDE void RowSearch::find_sums(Maps& maps) const noexcept {
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    const FormLanes::Form at = form_.at(i);
+    const Form::Form at = form_.at(i);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_FORM(at, 0);
       const float root = min_of(square0 * w0 * at.inverse * m.area[l], kFar), area = root * root;

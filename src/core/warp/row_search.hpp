@@ -61,7 +61,7 @@ struct RowLanes {
 
 class RowSearch {
  public:
-  /// `error` must outlive the search. Its corners are more than 0, and count.
+  /// `error` must outlive the search, has corners, and has counted no worst samples before.
   RowSearch(const WarpInput& input, const PlaneError& error) noexcept;
 
   /// Replaces each candidate's rows by the best of those near them: four for each row, `step` apart, in
@@ -69,19 +69,21 @@ class RowSearch {
   void find_rows(double step, RowLanes& candidates) noexcept;
 
   [[nodiscard]] WarpChoice choice(const RowChoice& rows) noexcept;
-  /// The fall-off under which texels go by what pixels cover, by least squares.
-  [[nodiscard]] FallOff fitted() const noexcept;
+  /// The fall-off under which texels go by what pixels cover, by least squares. Of a local light alone.
+  [[nodiscard]] FallOff fitted() const noexcept { return fitted_; }
   /// A fall-off along the view whose w has this share of the logarithm of the ratio of depths.
   [[nodiscard]] FallOff ahead(double share) const noexcept;
 
  private:
-  static constexpr std::size_t kMaxPoints = whole_lanes(2 * kMaxVertices);
+  static constexpr std::size_t kMaxPoints = BodyLanes::kMost, kMaxCorners = whole_lanes(2 * kMaxVertices);
+  using Form = FormLanes<kMaxCorners>;
   struct Axis {
     glm::dvec2 axis;
     double u_min, kappa, stretch, centre;
   };
   struct Maps;
-  void find_samples() noexcept;
+  void find_samples(const PixelLanes& samples) noexcept;
+  void fit(const PixelLanes& corners) noexcept;
   [[nodiscard]] Axis axis_of(const FallOff& fall_off) noexcept;
   [[nodiscard]] glm::dvec2 image_extent(const Axis& axis) noexcept;
   void find_axes(const RowLanes& candidates, Maps& maps) const noexcept;
@@ -94,19 +96,19 @@ class RowSearch {
 
   // Always the same, but not known when this is compiled: as in lane_range.
   std::size_t lanes_, fall_offs_;
-  const PixelLanes& corners_;
   const BodyLanes& body_;
   Objective objective_;
   double most_reach_;           // kappa times length
   glm::dvec2 middle_, extent_;  // of the body
   glm::dvec2 pivot_;            // that the axis turns about
   glm::dvec2 origin_;           // of the numbers below: where pixels are smallest
-  double depth_range_;          // logarithm of the ratio of the farthest to the nearest depth
+  FallOff fitted_;
+  double depth_range_;  // logarithm of the ratio of the farthest to the nearest depth
   alignas(64) std::array<double, kMaxPoints> image_x_, image_y_;
   // The body's points, from the origin, as shares of its extents; in fours.
   std::size_t points_ = 0, samples_ = 0;
   std::array<float, kMaxPoints> point_x_, point_y_;
-  FormLanes form_;  // of the samples, alike
+  Form form_;  // of the samples, alike
 };
 
 }  // namespace gnomon

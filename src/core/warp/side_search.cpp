@@ -238,7 +238,7 @@ GNOMON_WIDE void SideSearch::find_storage(const Maps& maps, SideLanes& candidate
   const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_;
   alignas(64) FloatLanes most_a{}, most_b{};
   for (std::size_t i = 0; i < n; i += 2) {
-    const FormLanes::Form f0 = form_.at(i), f1 = form_.at(i + 1);
+    const Form::Form f0 = form_.at(i), f1 = form_.at(i + 1);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_EXTENTS(f0, 0);
       GNOMON_EXTENTS(f1, 1);
@@ -258,7 +258,7 @@ GNOMON_WIDE void SideSearch::find_worst(const Maps& maps, SideLanes& candidates)
   const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_;
   alignas(64) FloatLanes worst{};
   for (std::size_t i = 0; i < n; i += 2) {
-    const FormLanes::Form f0 = form_.at(i), f1 = form_.at(i + 1);
+    const Form::Form f0 = form_.at(i), f1 = form_.at(i + 1);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_LARGER(f0, 0);
       GNOMON_LARGER(f1, 1);
@@ -275,7 +275,7 @@ GNOMON_WIDE void SideSearch::find_percentile(const Maps& maps, SideLanes& candid
   // The largest few, largest first.
   alignas(64) std::array<FloatLanes, PlaneError::kMaxAbove + 1> top{};
   for (std::size_t i = 0; i < n; ++i) {
-    const FormLanes::Form f0 = form_.at(i);
+    const Form::Form f0 = form_.at(i);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_LARGER(f0, 0);
       float rest = larger0;
@@ -295,7 +295,7 @@ GNOMON_WIDE void SideSearch::find_mean(const Maps& maps, SideLanes& candidates) 
   const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_;
   alignas(64) FloatLanes sum{};
   for (std::size_t i = 0; i < n; ++i) {
-    const FormLanes::Form f0 = form_.at(i);
+    const Form::Form f0 = form_.at(i);
     for (std::size_t l = 0; l < lanes; ++l) {
       GNOMON_EXTENTS(f0, 0);
       // Rounding alone leaves it below 0.

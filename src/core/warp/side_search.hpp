@@ -39,7 +39,8 @@ class SideSearch {
   [[nodiscard]] WarpChoice choice(const Sides& sides) const noexcept;
 
  private:
-  static constexpr std::size_t kMaxPoints = whole_lanes(2 * kMaxVertices);
+  static constexpr std::size_t kMaxPoints = BodyLanes::kMost;
+  using Form = FormLanes<PixelLanes::kMost>;
   struct Maps;
   void find_points() noexcept;
   void find_samples(const PixelLanes& samples) noexcept;
@@ -64,7 +65,7 @@ class SideSearch {
   // The body's points in the image, in fours; and a warp's w at them.
   alignas(64) std::array<double, kMaxPoints> image_x_, image_y_;
   alignas(64) std::array<float, kMaxPoints> point_x_, point_y_, point_w_;
-  FormLanes form_;  // of the samples, in the image
+  Form form_;  // of the samples, in the image
 };
 
 }  // namespace gnomon

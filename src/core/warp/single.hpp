@@ -35,8 +35,9 @@ struct Turn {
 
 /// Samples with the squared extents of a pixel there: J J^T over the square of J's determinant, and one over
 /// that determinant.
+template <std::size_t most>
 struct FormLanes {
-  alignas(64) std::array<float, PixelLanes::kMost> x, y, xx, xy, yy, inverse;
+  alignas(64) std::array<float, most> x, y, xx, xy, yy, inverse;
   /// A sample's numbers, of which loops keep copies: what they write might be these, for all that the
   /// compiler knows.
   struct Form {

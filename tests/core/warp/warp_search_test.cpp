@@ -62,7 +62,7 @@ TEST(WarpSearch, visible_points_lie_in_the_body_also_beside_a_face_through_the_e
                      for (const int set : {0, 1}) add_visible_points(input, set, lanes);
                      ASSERT_GT(lanes.count, 50u);
                      for (std::size_t i = 0; i < lanes.count; ++i) {
-                       const glm::dvec3 point{lanes.x[i], lanes.y[i], lanes.z[i]};
+                       const glm::dvec3 point{lanes.x[i], lanes.y[i], lanes.z()[i]};
                        for (int f = 0; f < input.polytope->face_count; ++f) {
                          const Plane& plane = input.polytope->plane[static_cast<std::size_t>(f)];
                          EXPECT_GE(glm::dot(plane.normal, point) + plane.offset, -1e-6 * glm::length(point))
