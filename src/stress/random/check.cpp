@@ -45,6 +45,12 @@ const std::vector<Kind>& all_kinds() {
       {"measure_wrong", "measure() is the metric at the points of its grid"},
       {"pages_refused", "legal input is planned in pages"},
       {"lights_refused", "legal input is planned as one of many lights"},
+      {"light_size_wrong",
+       "maps of many lights have a size in its range, below the least only where none is above"},
+      {"light_moves", "lights that rest keep their sizes and places"},
+      {"light_late", "maps of many lights are due at once, and again after as many frames as they say"},
+      {"light_plan_differs",
+       "the plan of one of many lights has no more and no larger maps than it has places"},
       {"pool_exceeded", "pages and maps of many lights stay within their pool and their budget"},
       {"pool_place_taken", "each page and each map of a light has a place of its own in the pool"},
       {"point_without_page", "every visible point that the light can reach has a page"},
@@ -63,6 +69,7 @@ void Counts::add(const Counts& other) {
   plans += other.plans;
   seen_plans += other.seen_plans;
   pages += other.pages;
+  lights += other.lights;
   light_maps += other.light_maps;
   maps += other.maps;
   receivers += other.receivers;

@@ -30,8 +30,8 @@ struct Kind {
 
 /// What was looked at, so that nothing passes for lack of checks.
 struct Counts {
-  long long plans = 0, seen_plans = 0, pages = 0, light_maps = 0, maps = 0, receivers = 0, casters = 0,
-            unmapped = 0, measured = 0, warps = 0, view_plans = 0, page_points = 0;
+  long long plans = 0, seen_plans = 0, pages = 0, lights = 0, light_maps = 0, maps = 0, receivers = 0,
+            casters = 0, unmapped = 0, measured = 0, warps = 0, view_plans = 0, page_points = 0;
   void add(const Counts& other);
 };
 
@@ -73,7 +73,10 @@ void check_metric(const Case& input, const ShadowPlan& plan, Report& report);
 void check_pages(const Case& input, std::span<const glm::dvec3> seen, Report& report);
 /// Maps that several cameras share: what each of them sees is in them, with its casters.
 void check_views(const Case& input, Report& report);
-/// The light and a sun in one pool: within the budget, and no two maps in one place.
+/// The plan as the shaders of one camera read it.
+[[nodiscard]] ShadowPlan as_seen_by(const ShadowPlan& plan, const Camera& camera);
+/// The lights of the case, or its light and a sun, in one pool: within the budget, no two maps in one place,
+/// sizes and frames as they are said to be, and what each light lights in its maps.
 void check_lights(const Case& input, std::span<const glm::dvec3> points, Report& report);
 /// That a warp which may be dropped lowers the objective.
 void check_warp(const nlohmann::ordered_json& value, Report& report);

@@ -304,7 +304,9 @@ bool for_warps(const nlohmann::ordered_json& value, nlohmann::ordered_json& out,
   // Counted at points in boxes, which say nothing of the volume: tests/core/warp/seen_points_test.cpp.
   if (objective == "picture") return false;
   // measure_map() takes no points from the band that a map shares with the cascade before it.
-  const std::string light = out["light"].value("type", "directional");
+  // Of many lights the first is planned.
+  const nlohmann::ordered_json& planned = out.contains("lights") ? out["lights"][0] : out["light"];
+  const std::string light = planned.value("type", "directional");
   if (objective == "p95" || light != "directional") options.erase("split_overlap");
   auto& receivers = out["receivers"];
   if (receivers.is_array() && receivers.size() > 1) {

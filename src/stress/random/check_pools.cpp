@@ -1,6 +1,5 @@
-// Do plans of pages and of many lights keep their budgets, serve every point, and share no place?
+// Do plans of pages keep their budgets, serve every point, and share no place?
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <glm/geometric.hpp>
 #include <string>
@@ -8,7 +7,6 @@
 
 #include "check.hpp"
 #include "geometry.hpp"
-#include "gnomon/lights.hpp"
 #include "gnomon/measure.hpp"
 #include "gnomon/pages.hpp"
 
@@ -112,10 +110,6 @@ void check_kept(const Case& input, const PagePlan& plan, Report& report) {
   }
 }
 
-bool overlap(const TexelRect& a, const TexelRect& b) {
-  return a.x < b.x + b.width && b.x < a.x + a.width && a.y < b.y + b.height && b.y < a.y + a.height;
-}
-
 }  // namespace
 
 void check_pages(const Case& input, std::span<const glm::dvec3> seen, Report& report) {
@@ -159,41 +153,6 @@ void check_pages(const Case& input, std::span<const glm::dvec3> seen, Report& re
                      of(served, " points have a page, said to be ", plan.points) +
                      of(plan.points_outside, " more lie outside, of ", points.size()));
   }
-}
-
-void check_lights(const Case& input, std::span<const glm::dvec3> points, Report& report) {
-  LightOptions options;
-  options.plan = input.options;
-  options.plan.filter = {};  // a kernel wider than a map is refused by name
-  options.pool_width = options.pool_height = 2048;
-  options.most_size = 512;
-  options.texel_budget = 1 << 20;
-  const std::array<LightRequest, 2> requests{{{input.light}, {DirectionalLight{{0.25, -1.0, 0.5}}}}};
-  std::vector<std::byte> memory(light_memory(requests.size(), points.size()));
-  const LightPlan plan = plan_lights({.camera = input.camera, .points_world = points}, requests,
-                                     input.bounds(), options, memory);
-  if (plan.status == PlanStatus::invalid_input) {
-    report.add("lights_refused", 1.0, std::string(plan.invalid_field));
-    return;
-  }
-  std::vector<TexelRect> places;
-  long long texels = 0;
-  for (const LightMaps& maps : plan.lights) {
-    for (int i = 0; i < maps.map_count; ++i) {
-      const TexelRect& place = maps.place[static_cast<std::size_t>(i)];
-      texels += static_cast<long long>(place.width) * place.height;
-      const bool inside = place.x >= 0 && place.y >= 0 && place.x + place.width <= options.pool_width &&
-                          place.y + place.height <= options.pool_height;
-      if (!inside || std::any_of(places.begin(), places.end(),
-                                 [&](const TexelRect& other) { return overlap(place, other); }))
-        report.add("pool_place_taken", place.x, "maps of lights overlap, or lie beside the pool");
-      places.push_back(place);
-    }
-  }
-  report.counts().light_maps += static_cast<long long>(places.size());
-  if (texels > options.texel_budget || texels != plan.texels)
-    report.add("pool_exceeded", static_cast<double>(texels),
-               std::to_string(texels) + " texels of lights, said to be " + std::to_string(plan.texels));
 }
 
 }  // namespace gnomon::stress

@@ -8,6 +8,7 @@
 
 #include "check.hpp"
 #include "gnomon/motion.hpp"
+#include "judge.hpp"
 
 namespace gnomon::stress {
 namespace {
@@ -52,7 +53,8 @@ void check_alone(const Case& input, Report& report) {
                std::to_string(plan.map_count) + " maps, by make_plan " + std::to_string(alone.map_count));
 }
 
-/// The plan as the shaders of one camera read it.
+}  // namespace
+
 ShadowPlan as_seen_by(const ShadowPlan& plan, const Camera& camera) {
   ShadowPlan own = plan;
   own.origin_world = camera.position;
@@ -62,8 +64,6 @@ ShadowPlan as_seen_by(const ShadowPlan& plan, const Camera& camera) {
   }
   return own;
 }
-
-}  // namespace
 
 void check_views(const Case& input, Report& report) {
   check_alone(input, report);

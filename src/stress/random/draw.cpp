@@ -2,6 +2,7 @@
 #include "draw.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
@@ -387,6 +388,52 @@ void draw_rest(Dice& dice, Json& o) {
   if (dice.chance(0.2)) o["selection"] = dice.name(kSelections);
 }
 
+/// How many lights share a pool.
+Json draw_pool(Dice& dice) {
+  Json o = Json::object();
+  const int most = 64 << dice.pick(5),
+            least = 16 << dice.pick(std::bit_width(static_cast<unsigned>(most / 16)));
+  o["most_size"] = most;
+  o["least_size"] = least;
+  o["pool_width"] = most * (1 + dice.pick(4));
+  o["pool_height"] = most * (1 + dice.pick(4));
+  if (dice.chance(0.5)) o["texel_budget"] = static_cast<std::int64_t>(dice.power(8.0, 22.0));
+  if (dice.chance(0.2)) {
+    o["page_budget"] = static_cast<int>(dice.power(0.0, 10.0));
+    o["page_texels"] = 64;
+  }
+  if (dice.chance(0.3)) o["enough_m"] = dice.power(-6.0, 6.0);
+  if (dice.chance(0.2)) {
+    Json costs = Json::object();
+    for (const char* key : {"per_map", "per_megatexel", "per_kilodraw", "per_megatriangle"}) {
+      if (dice.chance(0.7)) costs[key] = dice.power(-8.0, 2.0);
+    }
+    o["costs"] = costs;
+    if (dice.chance(0.7)) o["millisecond_budget"] = dice.power(-8.0, 6.0);
+  }
+  if (dice.chance(0.3)) o["most_frames"] = 1 + dice.pick(16);
+  if (dice.chance(0.3)) o["full_share"] = dice.power(-12.0, -0.01);
+  return o;
+}
+
+/// Puts lights of all kinds beside the case's own.
+void draw_lights(Dice& dice, const Stage& s, Json& value) {
+  Json lights = Json::array({value["light"]});
+  const int more = dice.chance(0.8) ? 1 + dice.pick(8) : 1 + dice.pick(60);
+  for (int i = 0; i < more; ++i) {
+    Stage own = s;
+    lights.push_back(draw_light(dice, own));
+  }
+  for (Json& light : lights) {
+    if (dice.chance(0.3)) light["weight"] = dice.chance(0.2) ? 0.0 : dice.power(-20.0, 20.0);
+    if (dice.chance(0.2)) light["draws"] = dice.power(0.0, 16.0);
+    if (dice.chance(0.2)) light["triangles"] = dice.power(0.0, 24.0);
+  }
+  value.erase("light");
+  value["lights"] = lights;
+  value["options"]["lights"] = draw_pool(dice);
+}
+
 }  // namespace
 
 Json draw_options(Dice& dice, const Stage& stage) {
@@ -410,6 +457,8 @@ Json draw_case(std::uint64_t seed, std::uint64_t number) {
   value["light"] = draw_light(dice, stage);
   draw_boxes(dice, stage, value);
   value["options"] = draw_options(dice, stage);
+  // Last: cases of one light are what they were before there were others.
+  if (dice.chance(0.3)) draw_lights(dice, stage, value);
   return value;
 }
 

@@ -63,10 +63,10 @@ std::string summary(const RandomOptions& options, const RandomResult& result) {
   const Counts& c = result.counts;
   text << c.plans << " random cases, seed " << options.seed << ": " << c.seen_plans
        << " plans more with visible depths and points, " << c.view_plans << " of several views, " << c.pages
-       << " pages, " << c.page_points << " points of pages, " << c.light_maps << " maps of many lights, "
-       << c.maps << " maps, " << c.receivers << " receiver points, " << c.casters << " shadow rays, "
-       << c.unmapped << " points without a map, " << c.measured << " metric points, " << c.warps
-       << " warps against none\n";
+       << " pages, " << c.page_points << " points of pages, " << c.lights << " of many lights, "
+       << c.light_maps << " maps of them, " << c.maps << " maps, " << c.receivers << " receiver points, "
+       << c.casters << " shadow rays, " << c.unmapped << " points without a map, " << c.measured
+       << " metric points, " << c.warps << " warps against none\n";
   for (const PlanTimes& t : result.times) {
     text << "make_plan, " << t.sort << ": " << t.cases << " cases, median " << t.median_ms
          << " ms, 99th percentile " << t.p99_ms << " ms, worst " << t.worst_ms << " ms (case " << t.worst_case

@@ -23,7 +23,8 @@ class Shrinker {
   Json run() {
     for (bool smaller = true; smaller && left_ > 0;) {
       smaller = false;
-      for (const char* list : {"casters", "receivers", "objects"}) smaller = drop_boxes(list) || smaller;
+      for (const char* list : {"casters", "receivers", "objects", "lights"})
+        smaller = drop_boxes(list) || smaller;
       for (const char* keys : {"/options", "/frame"})
         smaller = drop_keys(Json::json_pointer(keys)) || smaller;
       smaller = round_numbers() || smaller;
