@@ -72,7 +72,8 @@ struct FrameOptions {
   /// Maps store depths that grow evenly along each ray of the light, under local lights and warps too. They
   /// are z of clip space without the division by w, over its largest in the map. A float then has
   /// the same steps near the light and far from it. Casters write their depth in the fragment shader, which
-  /// takes longer.
+  /// takes longer. Maps that bend lines have divided depths where w grows more than 64 times across them. In z
+  /// alone, rounding would show as false shadow there.
   /// Based on: Brabec, Annen, Seidel, "Practical Shadow Mapping", 2002; Martin, Tan, "Anti-aliasing and
   /// Continuity with Trapezoidal Shadow Maps", 2004.
   bool linear_depth = false;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <limits>
 
 #include "frame/frame_block.hpp"
 
@@ -106,14 +107,19 @@ double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept {
 double even_depth_scale(const ShadowPlan& plan, const ShadowMap& map) noexcept {
   const glm::dmat4 world_from_clip =
       glm::inverse(drawn_from_plan_clip(plan.clip_space) * map.clip_from_world);
-  double largest = 0.0;
+  double largest = 0.0, least = std::numeric_limits<double>::infinity();
   for (const glm::dvec2& corner :
        {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
     // On the far plane clip z is w, of which the inverse has the reciprocal.
     const double z = 1.0 / (world_from_clip * glm::dvec4(corner, 1.0, 1.0)).w;
     if (!(z > 0.0)) return 0.0;
     largest = std::max(largest, z);
+    least = std::min(least, z);
   }
+  // A caster's depth in a bent map comes from weights in floats at each texel. Where w grows across the map,
+  // the rounding of a place there grows with it in z, and cancels in z / w alone.
+  constexpr double kWidest = 64.0;
+  if (!map.shape->affine && largest > kWidest * least) return 0.0;
   const double scale = 1.0 / largest;
   return std::isfinite(scale) ? scale : 0.0;
 }

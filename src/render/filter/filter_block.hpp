@@ -51,8 +51,8 @@ void set_options(const FilterSettings& settings, std::size_t map, FilterBlock& b
 /// light.
 [[nodiscard]] double depth_curve(const ShadowPlan& plan, const ShadowMap& map) noexcept;
 /// What makes a map's depths even along the light: clip z times this, in the clip space that maps are drawn
-/// in. It is 1 over the largest clip z on the far plane; 0 for a map without an inverse, whose depths are
-/// divided by w.
+/// in. It is 1 over the largest clip z on the far plane. It is 0 for a map without an inverse, and for a map
+/// that bends lines under a warp whose w grows more than 64 times across it: their depths are divided by w.
 [[nodiscard]] double even_depth_scale(const ShadowPlan& plan, const ShadowMap& map) noexcept;
 /// Curves, or minus even_depth_scale of maps with even depths: as ShadowMap of
 /// shaders/library/shadow_map.glsl has them.

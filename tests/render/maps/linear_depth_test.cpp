@@ -100,6 +100,22 @@ TEST_F(LinearDepth, a_map_without_an_inverse_keeps_its_depths) {
   EXPECT_GE(depth_curves(plan, true)[0], 0.0);
 }
 
+TEST_F(LinearDepth, a_map_that_bends_lines_has_them_only_where_w_grows_little_across_it) {
+  const Scene scene = solids();
+  ShadowPlan plan = planned(scene, camera_on_box(64, 64), kLights[0], "none");
+  ASSERT_EQ(plan.map_count, 1);
+  const glm::dmat4 straight = plan.map[0].clip_from_world;
+  for (const double strength : {0.9, 0.99}) {  // w grows 19 and 199 times from the lower edge to the upper
+    glm::dmat4 warp(1.0);
+    warp[1][3] = strength;
+    plan.map[0].clip_from_world = warp * straight;
+    plan.map[0].shape = &shapes::linear;
+    EXPECT_GT(even_depth_scale(plan, plan.map[0]), 0.0) << strength;
+    plan.map[0].shape = &shapes::logarithmic;
+    EXPECT_EQ(even_depth_scale(plan, plan.map[0]) > 0.0, strength < 0.95) << strength;
+  }
+}
+
 TEST_F(LinearDepth, maps_hold_the_depths_of_what_rays_along_the_texels_find) {
   const Scene scene = solids();
   const trace::Tracer tracer(scene, trace::Engine::own);
