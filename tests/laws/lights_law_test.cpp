@@ -596,6 +596,23 @@ TEST(Lights, no_light_grows_above_the_floor_while_another_is_below) {
   EXPECT_FALSE(choose_sizes(work, ladder, {6}, 1.0));
 }
 
+TEST(Lights, a_light_without_demand_keeps_the_floor_and_keeps_no_other_there) {
+  const SizeLadder ladder{16, 1, 6, 1.0};
+  for (const std::uint32_t count : {7u, 40u}) {  // searched for, and by steps alone
+    std::vector<LightWork> work;
+    for (std::uint32_t i = 0; i < count; ++i) work.push_back({i == 2 ? 0.0 : 3.7, 0.0, i, 4, 0, 6, 0});
+    const SizeBudget budget{static_cast<std::int64_t>(count) * 4 * SizeLadder::cells(5)};
+    ASSERT_TRUE(choose_sizes(work, ladder, budget, 1.25));
+    EXPECT_EQ(work[2].level, ladder.floor) << count;
+    std::vector<int> levels;
+    for (LightWork& light : work) levels.push_back(light.last = light.level);
+    EXPECT_GE(*std::min_element(levels.begin() + 3, levels.end()), 5) << count;
+    // The sums are rounded in another way, and say the same.
+    ASSERT_TRUE(choose_sizes(work, ladder, budget, 1.25));
+    for (std::size_t i = 0; i < work.size(); ++i) EXPECT_EQ(work[i].level, levels[i]) << i;
+  }
+}
+
 TEST(Lights, visible_points_decide_the_share) {
   const Ground ground;
   std::vector<glm::dvec3> points;

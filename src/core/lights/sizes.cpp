@@ -76,8 +76,11 @@ class FewLights {
     for (std::size_t i = 0; i < lights.size(); ++i) {
       LightWork at = lights[i];
       first_[i] = at.level;
-      for (; at.level < std::min(top, at.top); ++at.level)
-        steps_[step_count_++] = {step_of(at, ladder, order), i, at.level};
+      for (; at.level < std::min(top, at.top); ++at.level) {
+        const Step step = step_of(at, ladder, order);
+        if (!(step.ratio > 0.0)) break;
+        steps_[step_count_++] = {step, i, at.level};
+      }
       end_[i] = at.level;
     }
     std::sort(steps_.begin(), steps_.begin() + static_cast<std::ptrdiff_t>(step_count_),
@@ -98,6 +101,9 @@ class FewLights {
   }
 
  private:
+  // Sums of the same gains in another order are no better.
+  static constexpr double kRounding = 1.0 + 1e-12;
+
   struct LightStep {
     Step step;
     std::size_t light = 0;
@@ -130,7 +136,7 @@ class FewLights {
   }
   void visit(std::size_t light, const SizeBudget& left, double gain) noexcept {
     if (light == lights_.size()) {
-      if (gain <= best_gain_) return;
+      if (gain <= best_gain_ * kRounding) return;
       best_gain_ = gain;
       best_ = chosen_;
       return;
@@ -157,8 +163,6 @@ class FewLights {
       for (std::size_t k = i; k > 0 && children[k].bound > children[k - 1].bound; --k)
         std::swap(children[k], children[k - 1]);
     }
-    // Sums of the same gains in another order are no better.
-    constexpr double kRounding = 1.0 + 1e-12;
     for (std::size_t i = 0; i < count; ++i) {
       if (!(children[i].bound > best_gain_ * kRounding) || ++trials_ > kMaxTrials) return;
       chosen_[light] = children[i].level;
@@ -187,7 +191,8 @@ std::int64_t cells_of(std::span<const LightWork> lights) noexcept {
   return cells;
 }
 
-/// Raises levels up to `top` within the budget of all maps. The lights are in no order then.
+/// Raises levels up to `top` within the budget of all maps, by steps that gain something: no light without
+/// demand grows. The lights are in no order then.
 void raise(std::span<LightWork> lights, const SizeLadder& ladder, int top, const SizeBudget& budget,
            const StepOrder& order) noexcept {
   SizeBudget left{budget.cells - cells_of(lights), budget.milliseconds - milliseconds_of(lights)};
@@ -200,7 +205,7 @@ void raise(std::span<LightWork> lights, const SizeLadder& ladder, int top, const
   for (LightWork& light : lights) {
     if (light.level >= std::min(top, light.top)) continue;
     light.ratio = step_of(light, ladder, order).ratio;
-    std::swap(light, *end++);
+    if (light.ratio > 0.0) std::swap(light, *end++);
   }
   std::make_heap(first, end, behind);
   while (end != first) {
@@ -217,18 +222,21 @@ void raise(std::span<LightWork> lights, const SizeLadder& ladder, int top, const
       continue;
     }
     light.ratio = step_of(light, ladder, order).ratio;
-    std::push_heap(first, end, behind);
+    if (light.ratio > 0.0)
+      std::push_heap(first, end, behind);
+    else
+      --end;
   }
 }
 
 void choose(std::span<LightWork> lights, const SizeLadder& ladder, const SizeBudget& budget,
             const StepOrder& order) noexcept {
-  for (LightWork& light : lights) light.level = 0;
   // No light above the floor before all are at it: else more cells could take from one to lift another.
+  for (LightWork& light : lights) light.level = ladder.floor;
+  if (cells_of(lights) <= budget.cells && milliseconds_of(lights) <= budget.milliseconds)
+    return raise(lights, ladder, ladder.top, budget, order);
+  for (LightWork& light : lights) light.level = 0;
   raise(lights, ladder, ladder.floor, budget, order);
-  const bool all = std::all_of(lights.begin(), lights.end(),
-                               [&](const LightWork& light) { return light.level >= ladder.floor; });
-  if (all) raise(lights, ladder, ladder.top, budget, order);
 }
 
 double error_of(std::span<const LightWork> lights, const SizeLadder& ladder) noexcept {

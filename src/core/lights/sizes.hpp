@@ -46,6 +46,8 @@ struct SizeBudget {
 /// LightImportance times weight and share. Each light's `top` bounds its level, and up to `last` its steps
 /// count `keep_gain` times. False, without levels, where not even the smallest maps fit.
 ///
+/// A light without demand has maps of the floor where all lights' fit, else the smallest.
+///
 /// Each step doubles one light's maps: that whose error falls most per texel. Steps of one light gain ever
 /// less, so that no order of steps gains more from the same texels; only the last texels, too few for the
 /// next step, go to steps that gain less. More cells never make the sum of errors larger: up to the first
