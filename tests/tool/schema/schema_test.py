@@ -1,6 +1,6 @@
 """Do the schemas name each key that the readers know, and take the files that the program takes, and no others?
 
-    schema_test.py PROJECT GNOMON
+    schema_test.py PROJECT GNOMON [--values]   --values: tries values beyond the ends of every key, and no files
 """
 import copy
 import json
@@ -16,7 +16,7 @@ except ImportError:
     print("python3-jsonschema is not installed")
     sys.exit(77)
 
-project, program = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2]
+project, program, tries_values = pathlib.Path(sys.argv[1]).resolve(), sys.argv[2], "--values" in sys.argv[3:]
 shared = project.parent / "shared"
 
 
@@ -126,12 +126,15 @@ for name, value in examples.items():
     assert error_of(name, value) == "", (name, error_of(name, value))
     files[name].append(("docs/files.md", value))
 counts = {}
-for name, each in files.items():
+for name, each in files.items() if not tries_values else ():
     counts[name] = len(each)
     for file, value in each:
         error = error_of(name, value)
         assert follows(name, value) == (error == ""), f"{file}: {error or 'is taken'}, and the schema: {first_error(name, value)}"
-assert counts["case"] > 80 and counts["path"] >= 3, counts
+if not tries_values:
+    assert counts["case"] > 80 and counts["path"] >= 3, counts
+    print(f"{counts} files follow their schemas")
+    sys.exit(0)
 
 # Each key of a schema is known to its reader, and values beyond its ends are refused by both.
 tried = 0
@@ -190,4 +193,4 @@ def try_keys(name, whole, place, schema):
 for name, value in examples.items():
     try_keys(name, value, [], schemas[name])
 assert tried > 150, tried
-print(f"{counts} files follow their schemas; {tried} values tried")
+print(f"{tried} values tried")
