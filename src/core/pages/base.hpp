@@ -57,7 +57,7 @@ struct PageMemory {
   std::span<PageWeight> weights;   ///< kPageWeights, behind the grids
   std::span<Page> pages;           ///< PageOptions::capacity
   std::span<std::uint32_t> table;  ///< page_table_size(capacity)
-  std::span<PageContext> context;  ///< one
+  PageContext* context = nullptr;  ///< one
   std::span<PagePoint> points;     ///< at least as many as visible points
 };
 

@@ -62,7 +62,7 @@ PageMemory parts_of(std::span<std::byte> memory, int capacity) noexcept {
           grids.take<PageWeight>(kPageWeights),
           parts.take<Page>(static_cast<std::size_t>(capacity)),
           parts.take<std::uint32_t>(page_table_size(capacity)),
-          parts.take<PageContext>(1),
+          parts.take<PageContext>(1).data(),
           parts.take<PagePoint>(points)};
 }
 
@@ -275,8 +275,7 @@ PagePlan plan_pages(const View& view, const Light& light, const SceneBounds& bou
   plan.invalid_field = invalid_points(view, known, parts);
   if (!plan.invalid_field.empty()) return plan;
   const Camera finite = with_finite_far(view.camera, bounds.receivers);
-  PageContext& c =
-      *::new (parts.context.data()) PageContext{finite, view, known, pages, parts, camera_axes(finite)};
+  PageContext& c = *::new (parts.context) PageContext{finite, view, known, pages, parts, camera_axes(finite)};
   plan.clip_space = pages.plan.clip_space;
   plan.bias = pages.plan.bias;
   plan.page_texels = pages.page_texels;
