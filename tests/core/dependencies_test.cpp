@@ -66,7 +66,7 @@ bool allowed(const std::string& name) {
   // Its own headers are of one of its own folders: none below gnomon/ but the core's.
   if (name.starts_with("\"")) {
     const std::string path = name.substr(1, name.size() - 2);
-    if (level_of(path) >= 0) return path.find('/', path.find('/') + 1) == std::string::npos;
+    if (level_of(path) >= 0) return fs::exists(fs::path(GNOMON_SOURCE_DIR) / "src/core" / path);
     for (const std::string_view folder : {"gnomon/extend/", "gnomon/study/"})
       if (path.starts_with(folder)) return path.find('/', folder.size()) == std::string::npos;
     return path.starts_with("gnomon/") && path.find('/', 7) == std::string::npos;
