@@ -138,12 +138,10 @@ void choose_sizes(PageContext& c, PagePlan& plan) noexcept {
 bool fit_pool(PageContext& c, PagePlan& plan) noexcept {
   if (fits(c, 1.0, plan)) return true;
   // Octaves up, then thirty-seconds back: a twentieth of a pool stays empty.
-  constexpr double kStep = 1.0;
-  constexpr int kMaxSteps = 60, kHalvings = 5;
-  for (int i = 1; i <= kMaxSteps; ++i) {
-    const double enough = kStep * i;
-    if (!fits(c, elementary::exp2(enough), plan)) continue;
-    double high = enough, low = enough - kStep;
+  constexpr int kMaxOctaves = 60, kHalvings = 5;
+  for (int octave = 1; octave <= kMaxOctaves; ++octave) {
+    if (!fits(c, elementary::exp2(octave), plan)) continue;
+    double high = octave, low = octave - 1;
     for (int halving = 0; halving < kHalvings; ++halving) {
       const double middle = 0.5 * (low + high);
       (fits(c, elementary::exp2(middle), plan) ? high : low) = middle;
