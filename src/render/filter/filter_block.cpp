@@ -7,12 +7,11 @@
 #include <glm/matrix.hpp>
 #include <limits>
 
+#include "filter/filter_parts.hpp"
 #include "frame/frame_block.hpp"
 
 namespace gnomon::render {
 namespace {
-
-constexpr double kBoxOfDisc = 0.86602540378443865;  ///< half side of the box with the variance of a unit disc
 
 bool is_blurred(const FilterSettings& settings) noexcept {
   return settings.filter->info.reads == MapRead::filtered || settings.filter->info.reads == MapRead::joined;

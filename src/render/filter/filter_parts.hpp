@@ -11,6 +11,9 @@
 
 namespace gnomon::render {
 
+/// Half side of the box with the variance of a unit disc: sqrt(3) / 2.
+constexpr double kBoxOfDisc = 0.8660254037844386;
+
 /// compare.glsl: the receiver's plane, `offset` texels from the point. It may go on behind the map's far
 /// plane, where nothing is drawn: lit.
 [[nodiscard]] inline double plane_depth(const FilterLookup& lookup, const glm::dvec2& offset) noexcept {

@@ -32,8 +32,7 @@ int channels(const FilterSettings&) noexcept {
 
 /// Half sides of the box that has the variance of the penumbra's disc, no wider than the widest kernel.
 glm::dvec2 penumbra_box(const FilterLookup& lookup, double radius_world) noexcept {
-  constexpr double kDiscToBox = 0.8660254037844386;  // sqrt(3) / 2
-  const glm::dmat2 axes = kDiscToBox * radius_world * lookup.texels_per_world;
+  const glm::dmat2 axes = kBoxOfDisc * radius_world * lookup.texels_per_world;
   const glm::dvec2 box{glm::length(glm::dvec2(axes[0].x, axes[1].x)),
                        glm::length(glm::dvec2(axes[0].y, axes[1].y))};
   const glm::dvec2 over = box / lookup.box;

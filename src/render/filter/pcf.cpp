@@ -43,7 +43,6 @@ double compare_hardware(FilterLookup lookup) {
 
 /// The kernel no narrower than the pixel; a disc is stretched along the map's axes.
 FilterLookup covering_pixel(FilterLookup lookup) {
-  constexpr double kBoxOfDisc = 0.86602540378443865;
   lookup.box = glm::max(lookup.box, lookup.pixel);
   glm::dmat2& disc = lookup.disc;
   const glm::dvec2 reach(std::hypot(disc[0].x, disc[1].x), std::hypot(disc[0].y, disc[1].y));
