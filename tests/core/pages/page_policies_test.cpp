@@ -1,0 +1,187 @@
+// What does each page policy spend texels on?
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+#include "gnomon/pages.hpp"
+#include "pages/street.hpp"
+#include "support/near.hpp"
+
+namespace gnomon::test {
+namespace {
+
+TEST(Pages, clipmap_levels_are_octaves_of_square_texels) {
+  Street street;
+  street.options.policy = &page_policies::clipmap;
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
+  const PagePlan plan = street.plan(memory);
+  ASSERT_GT(plan.levels.size(), 2u);
+  for (const ShadowMap& level : plan.levels) {
+    EXPECT_NEAR(level.texel_world.x, level.texel_world.y, 1e-12 * level.texel_world.x);
+    const double octave = std::log2(level.snap_key.texel);
+    EXPECT_NEAR(octave, std::round(octave), 1e-12);
+  }
+  street.options.policy = &page_policies::resolution;
+  std::vector<std::byte> other(page_memory(4096, 1 << 14));
+  EXPECT_LT(street.plan(other).pages.size(), plan.pages.size());
+}
+
+TEST(Pages, edges_spend_texels_at_shadow_edges_alone) {
+  Street street;
+  street.options.policy = &page_policies::edges;
+  street.feedback.assign(street.points.size(), 0);
+  std::vector<std::byte> memory(page_memory(4096, 1 << 14));
+  const std::size_t none = street.plan(memory).pages.size();
+  for (std::size_t i = 1000; i < 1200; ++i) street.feedback[i] = kShadowEdge | kDepthEdge;
+  const PagePlan plan = street.plan(memory);
+  EXPECT_GT(plan.pages.size(), none);
+  for (std::size_t i = 0; i < street.points.size(); ++i) {
+    const Page& page = plan.pages[static_cast<std::size_t>(page_serving(plan, street.points[i]))];
+    const PointAliasing m = measure_perspective(plan.levels[page.level], street.camera, street.points[i]);
+    EXPECT_LE(std::max(m.m_s, m.m_t), (street.feedback[i] != 0 ? 1.0 : 8.0) + 1e-5);
+  }
+  street.options.policy = &page_policies::resolution;
+  EXPECT_GT(street.plan(memory).pages.size(), 2 * plan.pages.size());
+}
+
+/// Sum of the larger of m_s and m_t over the points at shadow edges.
+double error_at_edges(const Street& street, const PagePlan& plan) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < street.points.size(); ++i) {
+    if ((street.feedback[i] & kShadowEdge) == 0) continue;
+    const int page = page_serving(plan, street.points[i]);
+    EXPECT_GE(page, 0);
+    if (page < 0) continue;
+    const ShadowMap& level = plan.levels[plan.pages[static_cast<std::size_t>(page)].level];
+    const PointAliasing m = measure_perspective(level, street.camera, street.points[i]);
+    sum += std::max(m.m_s, m.m_t);
+  }
+  return sum;
+}
+
+TEST(Pages, picture_leaves_the_least_error_at_edges_in_a_pool_that_is_too_small) {
+  Street street;
+  street.points.clear();
+  // A wide ground, whose far half has few points to a page, and edges in stripes across it.
+  for (int row = 0; row < 100; ++row) {
+    for (int column = 0; column < 60; ++column)
+      street.points.push_back({-18.0 + 0.6 * column, 0.0, -4.0 - 0.02 * row * row});
+  }
+  street.feedback.assign(street.points.size(), 0);
+  for (std::size_t i = 0; i < street.points.size(); ++i)
+    street.feedback[i] = i / 60 % 25 < 3 ? kShadowEdge : 0;
+  street.options.page_texels = 64;
+  street.options.target_m = 0.1;
+  for (const int capacity : {12, 40, 150}) {
+    street.options.capacity = capacity;
+    std::vector<std::byte> memory(page_memory(capacity, street.points.size()));
+    const auto error_by = [&](const PagePolicy& policy) {
+      street.options.policy = &policy;
+      const PagePlan plan = street.plan(memory);
+      EXPECT_EQ(plan.status, PlanStatus::ok);
+      EXPECT_LE(plan.pages.size(), static_cast<std::size_t>(capacity));
+      return error_at_edges(street, plan);
+    };
+    const double picture = error_by(page_policies::picture);
+    EXPECT_LT(picture, 0.7 * error_by(page_policies::resolution)) << capacity;
+    EXPECT_LT(picture, 0.8 * error_by(page_policies::edges)) << capacity;
+  }
+}
+
+TEST(Pages, picture_is_resolution_where_the_pool_suffices) {
+  Street street;
+  street.feedback.assign(street.points.size(), 0);
+  for (std::size_t i = 0; i < street.points.size(); i += 7) street.feedback[i] = kShadowEdge;
+  std::vector<std::byte> memory[2] = {std::vector<std::byte>(page_memory(4096, 1 << 14)),
+                                      std::vector<std::byte>(page_memory(4096, 1 << 14))};
+  const PagePlan resolution = street.plan(memory[0]);
+  street.options.policy = &page_policies::picture;
+  const PagePlan picture = street.plan(memory[1]);
+  ASSERT_EQ(picture.pages.size(), resolution.pages.size());
+  for (std::size_t i = 0; i < picture.pages.size(); ++i) {
+    EXPECT_EQ(picture.pages[i].level, resolution.pages[i].level);
+    EXPECT_EQ(picture.pages[i].column, resolution.pages[i].column);
+    EXPECT_EQ(picture.pages[i].row, resolution.pages[i].row);
+  }
+}
+
+TEST(Pages, picture_adds_up_no_more_weights_than_it_has_room_for) {
+  // Shadow edges at just those points that the policy takes to stand for all: more of them than its table has
+  // entries, each in a page of its own.
+  Street street;
+  street.points.clear();
+  for (int i = 0; i < 90000; ++i)
+    street.points.push_back({-19.0 + 0.1 * (i % 380), 0.0, -2.0 - 0.8 * (i / 380)});
+  street.feedback.assign(street.points.size(), 0);
+  std::size_t edges = 0;
+  for (std::size_t i = 0; i < street.points.size() && edges < 16384 + 64; ++i) {
+    if (static_cast<std::uint32_t>(i) * 0x9E3779B1u > 0xFFFFFFFFu / 5u) continue;
+    street.feedback[i] = kShadowEdge;
+    ++edges;
+  }
+  ASSERT_GT(edges, 16384u);
+  street.options.policy = &page_policies::picture;
+  street.options.page_texels = 64;
+  street.options.target_m = 1e-3;
+  street.options.capacity = 60;
+  std::vector<std::byte> memory(page_memory(60, street.points.size()));
+  const PagePlan plan = street.plan(memory);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  for (std::size_t i = 0; i < street.points.size(); i += 500)
+    EXPECT_GE(page_serving(plan, street.points[i]), 0);
+}
+
+TEST(Pages, queried_refines_by_an_octave_where_the_picture_changed) {
+  Street street;
+  street.options.policy = &page_policies::queried;
+  street.options.plan.fit = Fit::stable;  // the same grids in every frame
+  std::vector<std::byte> memory[2] = {std::vector<std::byte>(page_memory(4096, 1 << 14)),
+                                      std::vector<std::byte>(page_memory(4096, 1 << 14))};
+  const PagePlan first = street.plan(memory[0]);
+  ASSERT_EQ(first.status, PlanStatus::ok);
+  street.last = &first;
+  street.feedback.assign(street.points.size(), 0);
+  const PagePlan unchanged = street.plan(memory[1]);
+  EXPECT_EQ(unchanged.pages.size(), first.pages.size());
+  for (std::size_t i = 0; i < 500; ++i) street.feedback[i] = kShadowChanged;
+  const PagePlan refined = street.plan(memory[1]);
+  const auto texel = [](const PagePlan& plan, const glm::dvec3& point) {
+    return plan.levels[plan.pages[static_cast<std::size_t>(page_serving(plan, point))].level].texel_world.x;
+  };
+  EXPECT_NEAR(texel(refined, street.points[100]), 0.5 * texel(first, street.points[100]), 1e-9);
+  EXPECT_NEAR(texel(refined, street.points[3999]), texel(first, street.points[3999]), 1e-9);
+}
+
+TEST(Pages, tiled_gives_more_of_the_pool_to_tiles_with_depth_edges) {
+  Street street;
+  street.options.policy = &page_policies::tiled;
+  street.options.capacity = 200;
+  std::vector<std::byte> memory(page_memory(200, 1 << 14));
+  street.feedback.assign(street.points.size(), 0);
+  const PagePlan even = street.plan(memory);
+  ASSERT_EQ(even.status, PlanStatus::ok);
+  EXPECT_LE(even.pages.size(), 200u);
+  const auto texel = [&](const PagePlan& plan, std::size_t i) {
+    return plan.levels[plan.pages[static_cast<std::size_t>(page_serving(plan, street.points[i]))].level]
+        .texel_world.x;
+  };
+  const double before = texel(even, 3900);
+  for (std::size_t i = 3500; i < 4000; ++i) street.feedback[i] = kDepthEdge;
+  EXPECT_LT(texel(street.plan(memory), 3900), before);
+}
+
+TEST(Pages, names_find_their_policies) {
+  EXPECT_FALSE(all_page_policies().empty());
+  for (const PagePolicy* policy : all_page_policies()) {
+    EXPECT_EQ(find_page_policy(policy->name), policy);
+    EXPECT_FALSE(policy->summary.empty());
+  }
+  EXPECT_EQ(find_page_policy("none"), nullptr);
+}
+
+}  // namespace
+}  // namespace gnomon::test
