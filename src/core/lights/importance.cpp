@@ -5,6 +5,7 @@
 // along the map's axis, t being its frustum's slope; a pixel is z / (pixels per slope) wide at the depth z.
 #include "lights/importance.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <new>
@@ -18,6 +19,7 @@
 #include "lanes/elementary.hpp"
 #include "map/size.hpp"
 #include "plan/local.hpp"
+#include "resolve/resolve.hpp"
 
 namespace gnomon {
 namespace {
@@ -65,7 +67,7 @@ LocalLight local_light(const Light& light, const PlanOptions& options, const glm
   local.has_cone = true;
   local.axis = safe_normalize(spot->direction, {0.0, -1.0, 0.0});
   local.cosine = elementary::cos(spot->outer_radians);
-  local.cube = shown_by_faces(*spot, options);
+  local.cube = shown_by_faces(*spot, resolve(options, {.light = light}).options);
   if (local.cube) {
     local.base = fixed_frame(local.axis);
   } else {
@@ -313,12 +315,31 @@ Coverage cover_points(const LightView& view, const LocalLight& light, const Poly
   return {0.5 / count, mean_of_corners(view, light, body)};
 }
 
+/// A sun's plan with maps of this size.
+const ShadowPlan& sun_plan(const LightView& view, const Light& light, int size) noexcept {
+  const View seen{.camera = view.camera, .points_world = view.points_world};
+  PlanOptions options = view.options;
+  options.resolution.max_size = size;
+  return *::new (view.sun) ShadowPlan(make_plan(seen, light, view.bounds, options));
+}
+
+/// The most maps that a sun may need at any size: a caster may reach a cascade by a texel of one size and
+/// not of another, and parts other than cascades gain by one and not by another.
+int most_maps(const LightView& view, const Light& light, int at_least_size) noexcept {
+  int most = at_least_size;
+  for (int size = view.most_size; size > view.options.resolution.max_size; size /= 2) {
+    const bool all = view.options.split.partition == Partition::view_depth && most >= view.options.cascades;
+    if (all) break;
+    most = std::max(most, sun_plan(view, light, size).map_count);
+  }
+  return most;
+}
+
 /// Shares and errors of all cascades of a sun, which is planned for that at the least size. Out of line: the
 /// plan need not make room for what local lights take.
-[[gnu::noinline]] LightImportance sun_importance(const LightView& view, const Light& light) noexcept {
+[[gnu::noinline]] LightImportance sun_at_least_size(const LightView& view, const Light& light) noexcept {
   const PlanOptions& options = view.options;
-  const View seen{.camera = view.camera, .points_world = view.points_world};
-  const ShadowPlan& plan = *::new (view.sun) ShadowPlan(make_plan(seen, light, view.bounds, options));
+  const ShadowPlan& plan = sun_plan(view, light, options.resolution.max_size);
   LightImportance out;
   if (plan.status == PlanStatus::no_caster) out.outcome = LightOutcome::without_caster;
   if (plan.status != PlanStatus::ok) return out;
@@ -327,6 +348,7 @@ Coverage cover_points(const LightView& view, const LocalLight& light, const Poly
   out.seen_maps = out.all_maps = plan.map_count;
   const double inside = options.resolution.max_size - 2.0 * std::ceil(options.filter.texels);
   if (!view.points_world.empty()) {
+    const View seen{.camera = view.camera, .points_world = view.points_world};
     const AliasingStats stats = measure(plan, seen, view.bounds);
     if (stats.samples > stats.outside && std::isfinite(stats.mean)) {
       out.demand = stats.mean * inside;
@@ -348,14 +370,21 @@ Coverage cover_points(const LightView& view, const LocalLight& light, const Poly
   return out;
 }
 
+LightImportance sun_importance(const LightView& view, const Light& light) noexcept {
+  LightImportance out = sun_at_least_size(view, light);
+  if (out.outcome == LightOutcome::mapped)
+    out.seen_maps = out.all_maps = most_maps(view, light, out.seen_maps);
+  return out;
+}
+
 }  // namespace
 
 LightView light_view(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options,
                      std::span<const glm::dvec3> points_world, std::span<LightPoint> memory, Polytope& body,
-                     ShadowPlan* sun) noexcept {
+                     ShadowPlan* sun, int most_size) noexcept {
   const CameraAxes axes = camera_axes(camera);
   body = frustum_slice(camera, axes, camera.near_depth, camera.far_depth);
-  LightView view{camera, bounds, options, axes, body, {}, false, {}, points_world, 1.0, sun};
+  LightView view{camera, bounds, options, axes, body, {}, false, {}, points_world, 1.0, sun, most_size};
   view.box = bounds_of(view.body);
   const Boxes &c = bounds.casters, &r = bounds.receivers;
   view.one_list = c.set() == r.set() && c.list().data() == r.list().data() && c.size() == r.size();

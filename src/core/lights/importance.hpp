@@ -28,11 +28,13 @@ struct LightView {
   std::span<const glm::dvec3> points_world;
   double unit;
   ShadowPlan* sun;  // where the plan of a sun is made: it is long
+  int most_size;    // side of the largest maps, texels; `options` have that of the smallest
 };
 /// Fills `memory`, which holds as many as there are points, and `body`. `sun`: room for a plan.
 [[nodiscard]] LightView light_view(const Camera& camera, const SceneBounds& bounds,
                                    const PlanOptions& options, std::span<const glm::dvec3> points_world,
-                                   std::span<LightPoint> memory, Polytope& body, ShadowPlan* sun) noexcept;
+                                   std::span<LightPoint> memory, Polytope& body, ShadowPlan* sun,
+                                   int most_size) noexcept;
 
 /// The importance of one light.
 struct LightImportance {

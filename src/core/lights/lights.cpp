@@ -395,7 +395,7 @@ LightPlan plan_lights(const View& view, std::span<const LightRequest> lights, co
                           std::ceil(options.plan.filter.texels)};
   LightPlanner planner(lights, options, ladder, parts, history, plan);
   planner.weigh(light_view(finite, bounds, reference, view.points_world, parts.points, parts.view.front(),
-                           parts.sun.data()));
+                           parts.sun.data(), options.most_size));
   if (const std::string_view too_small = planner.size(); !too_small.empty()) {
     plan = {};
     plan.invalid_field = too_small;
