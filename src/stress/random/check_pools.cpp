@@ -150,7 +150,7 @@ void check_pages(const Case& input, std::span<const glm::dvec3> seen, Report& re
     if (served < plan.points || plan.points + plan.points_outside != points.size())
       report.add("point_without_page", static_cast<double>(points.size() - served),
                  std::string(policy->name) + ": " +
-                     of(served, " points have a page, said to be ", plan.points) +
+                     of(served, " points have a page, said to be ", plan.points) + ", " +
                      of(plan.points_outside, " more lie outside, of ", points.size()));
   }
 }
