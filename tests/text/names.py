@@ -9,7 +9,7 @@ BRACE = re.compile(r"[{}]")
 # Code of a language that writes the names of its own types so.
 RUST = re.compile(r"^```rust$.*?^```$", re.S | re.M)
 # Names of other libraries.
-FOREIGN = ("CLI", "Json", "Ogre")
+FOREIGN = ("CLI", "Json", "Ogre", "ShadowSettings")
 
 
 def without_comments(text):
