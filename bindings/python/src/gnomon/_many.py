@@ -11,7 +11,6 @@ from numpy.typing import ArrayLike, NDArray
 from . import _layout as c
 from ._call import GnomonError, call, expect, find, lib, make, points_of, set_fields, set_options
 from ._records import Boxes, Camera, Input, Light, Map, Plan, Record, VisibleDepths
-                       perspective, point)
 
 
 class PagePlan(Record):
