@@ -13,23 +13,6 @@ namespace {
 /// Cosine between normals from which on two points are of one surface: a bend of 18 degrees, as for pictures.
 constexpr double kSameNormal = 0.95;
 
-/// The surface on a ray from the eye; sky where there is none.
-SurfacePoint met_by(const Tracer& tracer, const Ray& ray, const Light& light) noexcept {
-  SurfacePoint point;
-  const Hit hit = tracer.first_seen(ray);
-  if (hit.triangle == kNoTriangle) return point;
-  point.triangle = hit.triangle;
-  point.position = ray.origin + ray.direction * hit.t;
-  point.normal = glm::dot(hit.normal, ray.direction) > 0.0 ? -hit.normal : hit.normal;
-  const LightRay to_light = light_ray(light, point.position);
-  const double cosine = glm::dot(point.normal, to_light.direction);
-  point.state = std::abs(cosine) < kGrazingCosine ? PixelState::undecided
-                : cosine < 0.0                    ? PixelState::turned_away
-                : to_light.lit                    ? PixelState::facing
-                                                  : PixelState::unlit;
-  return point;
-}
-
 /// The longer side of a pixel at the depth of a point, across the view, world units.
 double pixel_side(const Camera& camera, const CameraAxes& axes, const glm::dvec3& point) noexcept {
   const double depth = camera.orthographic ? 1.0 : glm::dot(axes.forward, point - camera.position);

@@ -27,6 +27,23 @@ namespace gnomon::trace {
   return ray;
 }
 
+/// The surface that a ray from the eye shows; sky where there is none.
+[[nodiscard]] inline SurfacePoint met_by(const Tracer& tracer, const Ray& ray, const Light& light) noexcept {
+  SurfacePoint point;
+  const Hit hit = tracer.first_seen(ray);
+  if (hit.triangle == kNoTriangle) return point;
+  point.triangle = hit.triangle;
+  point.position = ray.origin + ray.direction * hit.t;
+  point.normal = glm::dot(hit.normal, ray.direction) > 0.0 ? -hit.normal : hit.normal;
+  const LightRay to_light = light_ray(light, point.position);
+  const double cosine = glm::dot(point.normal, to_light.direction);
+  point.state = std::abs(cosine) < kGrazingCosine ? PixelState::undecided
+                : cosine < 0.0                    ? PixelState::turned_away
+                : to_light.lit                    ? PixelState::facing
+                                                  : PixelState::unlit;
+  return point;
+}
+
 /// The ray from the receiver's plane to the light, along the line through `from`. It starts where that line
 /// leaves the plane, so that the rounding of the picture's position does not matter, and beyond what
 /// the engine may see too early of triangles in the same plane.

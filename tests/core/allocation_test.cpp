@@ -1,6 +1,7 @@
 // Does planning and measuring work without the heap?
 #include <gtest/gtest.h>
 
+#include <array>
 #include <vector>
 
 #include "allocations.hpp"
@@ -18,8 +19,8 @@ static_assert(noexcept(measure(any<ShadowPlan>(), any<View>(), any<SceneBounds>(
 static_assert(noexcept(measure_point(any<ShadowMap>(), any<Camera>(), any<glm::dvec3>(), any<glm::dvec3>())));
 static_assert(noexcept(measure_points(any<ShadowMap>(), any<Camera>(), {}, {}, {})));
 static_assert(noexcept(measure_perspectives(any<ShadowMap>(), any<Camera>(), {}, {})));
-static_assert(noexcept(choose_technique(any<View>(), any<Light>(), any<SceneBounds>(), {}, {}, {},
-                                        any<CostModel>(), any<PlanOptions>())));
+static_assert(noexcept(choose_technique(any<View>(), any<ShadowPicture>(), any<Light>(), any<SceneBounds>(),
+                                        {}, {}, {}, any<CostModel>(), any<PlanOptions>())));
 static_assert(noexcept(describe(any<Omission>())));
 
 TEST(Allocation, the_counter_counts) {
@@ -50,9 +51,15 @@ TEST(Allocation, choosing_a_technique_allocates_nothing) {
   int tried = 0;
   for_all(10, [&] {
     const Case c = draw_case();
+    std::array<float, 64> mask{}, depths{};
+    depths.fill(static_cast<float>(c.camera.far_depth * 0.5));
+    for (std::size_t i = 0; i < mask.size(); i += 3) mask[i] = 1.0f;
+    Camera picture = c.camera;
+    picture.width = picture.height = 8;
     const std::uint64_t before = tool::allocation_count();
     const TechniqueChoice choice =
-        choose_technique(c.camera, DirectionalLight{c.light}, c.bounds(), {}, {}, {}, costs, c.options);
+        choose_technique(c.camera, {picture, mask, depths}, DirectionalLight{c.light}, c.bounds(), {}, {}, {},
+                         costs, c.options);
     const std::uint64_t allocated = tool::allocation_count() - before;
     require(allocated == 0, "allocations", allocated, "tried", choice.tried);
     tried += choice.tried;

@@ -17,7 +17,8 @@ struct Observation {
   PlanWork work;       ///< predicted
   double megapixels = 0.0, bytes_per_texel = 4.0;  ///< of the frame; of everything that is kept
   double frame_ms = 0.0, depth_ms = 0.0, prefilter_ms = 0.0, lookup_ms = 0.0;  ///< measured, milliseconds
-  double m = 0.0;                                                              ///< predicted: planned_error
+  double expected =
+      0.0;             ///< share of the pixels that hard comparison misclassifies, predicted: expected_error
   double wrong = 0.0;  ///< share of the pixels on the wrong side of one half, measured
 };
 
@@ -37,9 +38,13 @@ struct StoredCostModel {
   [[nodiscard]] CostModel view(std::vector<FilterCost>& costs) const;
 };
 
-/// Least squares of relative errors, no cost below zero. Throws ReportError for fewer than eight
-/// observations.
+/// Least squares of relative errors, no cost below zero. A filter's error_power is the slope of log wrong
+/// over log expected within the views, and its error_ratio the mean over them. Throws ReportError for fewer
+/// than eight observations.
 [[nodiscard]] StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine);
+
+/// The time of a frame's shadows by the model, milliseconds; infinite for a filter that it does not know.
+[[nodiscard]] double predicted_ms(const StoredCostModel& model, const Observation& observation) noexcept;
 
 /// Coefficients >= 0 that make sum over rows of ((features . x - value) / value)^2 least; rows whose value is
 /// not above zero do not count. Each row holds one feature per coefficient.

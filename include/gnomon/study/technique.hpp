@@ -9,6 +9,7 @@
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/plan.hpp"
+#include "gnomon/study/expected_error.hpp"
 
 namespace gnomon {
 
@@ -18,8 +19,9 @@ struct FilterCost {
   double prefilter_ms_per_map = 0.0, prefilter_ms_per_megatexel = 0.0;  ///< of stored texels
   double lookup_ms_per_megapixel = 0.0;                                 ///< of the frame
   double bytes_per_texel = 4.0;                                         ///< depth and stored texels together
-  /// It misclassifies as many pixels in maps of error m as a filter with ratio and power 1 does in maps of
-  /// error_ratio * m^error_power. A filter that smooths is better in coarse maps than in fine ones.
+  /// Where hard comparison is expected to misclassify a share e of the pixels (expected_error), the filter
+  /// misclassifies error_ratio * e^error_power. A filter that smooths is better in coarse maps than in fine
+  /// ones.
   double error_ratio = 1.0, error_power = 1.0;
 };
 
@@ -56,7 +58,7 @@ struct CostModel {
 struct Budget {
   std::int64_t texels = 0, bytes = 0;  ///< of all maps
   double milliseconds = 0.0;           ///< per frame
-  double target_error = 0.0;           ///< Technique::error, screen pixels per texel
+  double target_error = 0.0;           ///< Technique::error, in [0,1]
   /// Without target_error: errors above the least by no more than this share count as alike, and the cheapest
   /// of them is taken, >= 0. The default is about what the prediction is good to; less pays for errors that
   /// may be none.
@@ -69,7 +71,7 @@ struct TechniqueSet {
   std::span<const SplitScheme> splits;       ///< automatic
   std::span<const int> cascades;             ///< 1, 2, 3, 4; local lights ignore it
   std::span<const int> map_sizes;            ///< 256, 512, 1024, 2048, 4096
-  static constexpr std::size_t kMost = 512;  ///< of warps x splits x cascades; what comes later is not tried
+  static constexpr std::size_t kMost = 512;  ///< plans; what comes later in the product is not tried
 };
 
 /// One technique with what it would cost and err.
@@ -78,9 +80,7 @@ struct Technique {
   SplitScheme split = SplitScheme::automatic;  ///< of the cascades
   int cascades = 0, map_size = 0;              ///< maps; texels along each side
   int filter = 0;                              ///< index into CostModel::filters
-  /// Mean of m over the visible points, screen pixels per texel, scaled to a filter with error_ratio and
-  /// error_power 1 that misclassifies as many pixels.
-  double error = 0.0;
+  double error = 0.0;                  ///< share of the picture's pixels that it is to misclassify, in [0,1]
   double milliseconds = 0.0;           ///< predicted, per frame
   std::int64_t texels = 0, bytes = 0;  ///< of all maps
 };
@@ -90,9 +90,10 @@ struct TechniqueChoice {
   /// ok: plan and options are those of `chosen`. Otherwise the status of make_plan: there is nothing to
   /// choose.
   PlanStatus status = PlanStatus::invalid_input;
-  std::string_view invalid_field;  ///< of make_plan, or "budget", "cost_model[.filters]", "map_sizes"
-  bool met = false;                ///< false: nothing fits, `chosen` is the nearest to fitting
-  Technique chosen;                ///< map_size 0 where status is not ok
+  std::string_view
+      invalid_field;  ///< of make_plan, or "budget", "cost_model[.filters]", "map_sizes", "shadow"
+  bool met = false;   ///< false: nothing fits, `chosen` is the nearest to fitting
+  Technique chosen;   ///< map_size 0 where status is not ok
   /// Marginal trade-offs: the best choice at 80 % of the cost, and at 80 % of the error; map_size 0: there is
   /// none. Limits other than the traded one do not bind them.
   Technique cheaper, better;
@@ -101,22 +102,24 @@ struct TechniqueChoice {
   ShadowPlan plan;      ///< the maps to draw
 };
 
-/// Plans each parametrization once, measures it (planned_error), and estimates its cost at every size with
-/// every filter: some 0.1 ms a parametrization. For when a scene, a view or a light is new, not for every
-/// frame. `base` gives all options that are not chosen. Pure, allocates nothing, never throws.
+/// Plans each technique, counts the pixels that its texels misclassify in `shadow` (expected_error), and
+/// estimates its cost with every filter. That takes some milliseconds a plan: for when a scene, a view or a
+/// light is new, not for every frame. Pure, allocates nothing, never throws.
 ///
-/// Errors are those at View::points_world, some thousand of which suffice. Without any they are taken
-/// anywhere in the receivers' boxes, which misrates warps and splits where the boxes are mostly air. The
-/// points do not shape the maps. `casters`: one entry per box of bounds.casters, in their order; missing ones
-/// cost nothing.
-[[nodiscard]] TechniqueChoice choose_technique(const View& view, const Light& light,
-                                               const SceneBounds& bounds, std::span<const CasterWork> casters,
-                                               const TechniqueSet& among, const Budget& budget,
-                                               const CostModel& costs, const PlanOptions& base = {}) noexcept;
+/// `shadow`: of the last frame or of rays, and of the same view. Fewer pixels than the frame's take less
+/// time, but texels finer than they are then count too little. `base` gives all options that are not chosen.
+/// `casters`: one entry per box of bounds.casters, in their order; missing ones cost nothing.
+[[nodiscard]] TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow,
+                                               const Light& light, const SceneBounds& bounds,
+                                               std::span<const CasterWork> casters, const TechniqueSet& among,
+                                               const Budget& budget, const CostModel& costs,
+                                               const PlanOptions& base = {}) noexcept;
 
-/// Figures that choose_technique compares: the mean of m over the visible points, and the work of drawing.
-[[nodiscard]] double planned_error(const ShadowPlan& plan, const View& view,
-                                   const SceneBounds& bounds) noexcept;
+/// Milliseconds of drawing maps, filtering them, and looking up so many million pixels.
+[[nodiscard]] double predicted_ms(const DrawingCosts& costs, const FilterCost& filter, const PlanWork& work,
+                                  double megapixels) noexcept;
+
+/// The work of drawing the plan's maps.
 [[nodiscard]] PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,
                                     std::span<const CasterWork> casters) noexcept;
 

@@ -2,10 +2,10 @@
 #include "gnomon/study/technique.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
-#include "gnomon/measure.hpp"
 #include "lanes/casters.hpp"
 #include "lanes/elementary.hpp"
 
@@ -13,19 +13,13 @@ namespace gnomon {
 namespace {
 
 constexpr double kMega = 1e6, kKilo = 1e3;
-constexpr int kReferenceSize = 1024;
-/// Pixels and depths that stand for what is seen where nobody knows: it is the order of plans that counts.
-constexpr MeasureOptions kGrid{24, 16, 24};
 /// How much less counts as a trade.
 constexpr double kTrade = 0.8;
 
-/// One parametrization at the reference size.
-struct Parametrization {
-  const Warp* warp = nullptr;
-  SplitScheme split = SplitScheme::automatic;
-  int cascades = 0;
-  double m = 0.0;
-  double margin_share = 0.0;  ///< of the map's side that is rim
+/// One plan, for all filters.
+struct Planned {
+  Technique technique;
+  double wrong = 0.0;  ///< share of the pixels, expected of hard comparison
   PlanWork work;
 };
 
@@ -54,6 +48,15 @@ std::array<double, 6> all_of(const DrawingCosts& costs) noexcept {
           costs.per_kilodraw, costs.per_megatriangle, costs.per_megatexel_tested};
 }
 
+/// The picture's spans have one value for each pixel.
+bool fits(const ShadowPicture& shadow) noexcept {
+  const Camera& camera = shadow.camera;
+  return camera.width > 0 && camera.height > 0 && shadow.mask.size() == shadow.view_depths.size() &&
+         shadow.mask.size() / static_cast<std::size_t>(camera.width) ==
+             static_cast<std::size_t>(camera.height) &&
+         shadow.mask.size() % static_cast<std::size_t>(camera.width) == 0;
+}
+
 std::string_view broken(const Budget& budget, const CostModel& costs, const TechniqueSet& among) noexcept {
   if (budget.texels < 0 || budget.bytes < 0 || !is_limit(budget.milliseconds) ||
       !is_limit(budget.target_error) || !is_limit(budget.alike))
@@ -73,16 +76,10 @@ std::string_view broken(const Budget& budget, const CostModel& costs, const Tech
   return sizes ? std::string_view() : "map_sizes";
 }
 
-double drawing_ms(const DrawingCosts& costs, const PlanWork& work) noexcept {
-  return costs.per_frame + costs.per_map * work.maps + costs.per_megatexel * work.megatexels +
-         costs.per_kilodraw * work.kilodraws + costs.per_megatriangle * work.megatriangles +
-         costs.per_megatexel_tested * work.megatexels_tested;
-}
-
 class Choosing {
  public:
-  Choosing(const Camera& camera, const CostModel& costs, std::span<const int> sizes) noexcept
-      : costs_(costs), sizes_(sizes), megapixels_(static_cast<double>(camera.width) * camera.height / kMega) {
+  Choosing(const Camera& camera, const CostModel& costs) noexcept
+      : costs_(costs), megapixels_(static_cast<double>(camera.width) * camera.height / kMega) {
     for (const double cost : all_of(costs.drawing)) any_time_ = any_time_ || cost > 0.0;
     for (const FilterCost& f : costs.filters)
       any_time_ = any_time_ || f.prefilter_ms_per_map > 0.0 || f.prefilter_ms_per_megatexel > 0.0 ||
@@ -90,10 +87,8 @@ class Choosing {
   }
 
   [[nodiscard]] bool full() const noexcept { return count_ == all_.size(); }
-  void add(const Parametrization& p) noexcept { all_[count_++] = p; }
-  [[nodiscard]] int tried() const noexcept {
-    return static_cast<int>(count_ * sizes_.size() * costs_.filters.size());
-  }
+  void add(const Planned& planned) noexcept { all_[count_++] = planned; }
+  [[nodiscard]] int tried() const noexcept { return static_cast<int>(count_ * costs_.filters.size()); }
 
   [[nodiscard]] double cost(const Technique& t) const noexcept {
     return any_time_ ? t.milliseconds : static_cast<double>(t.texels);
@@ -157,42 +152,30 @@ class Choosing {
     return a < b || (a == b && tie_a < tie_b);
   }
 
-  [[nodiscard]] Technique priced(const Parametrization& p, int size, std::size_t filter) const noexcept {
+  [[nodiscard]] Technique priced(const Planned& planned, std::size_t filter) const noexcept {
     const FilterCost& f = costs_.filters[filter];
-    // The rim is as many texels at any size.
-    const double margin = 2.0 * p.margin_share * kReferenceSize;
-    const double usable = std::max(size - margin, 1.0);
-    Technique t{p.warp, p.split, p.cascades, size, static_cast<int>(filter)};
-    const double m = p.m * (kReferenceSize - margin) / usable;
-    // Neither nothing nor what has no end has a logarithm.
-    const bool has_power = f.error_power != 1.0 && m > 0.0 && std::isfinite(m);
-    t.error = f.error_ratio * (has_power ? elementary::pow(m, f.error_power) : m);
-    PlanWork work = p.work;
-    const double growth = static_cast<double>(size) * size / (kReferenceSize * kReferenceSize);
-    work.megatexels *= growth;
-    work.megatexels_tested *= growth;
-    t.texels = static_cast<std::int64_t>(p.work.maps) * size * size;
+    Technique t = planned.technique;
+    t.filter = static_cast<int>(filter);
+    // Nothing has no logarithm.
+    const bool has_power = f.error_power != 1.0 && planned.wrong > 0.0;
+    const double power = has_power ? elementary::pow(planned.wrong, f.error_power) : planned.wrong;
+    t.error = std::min(f.error_ratio * power, 1.0);
     t.bytes = static_cast<std::int64_t>(std::llround(static_cast<double>(t.texels) * f.bytes_per_texel));
-    t.milliseconds = drawing_ms(costs_.drawing, work) + f.prefilter_ms_per_map * work.maps +
-                     f.prefilter_ms_per_megatexel * work.megatexels + f.lookup_ms_per_megapixel * megapixels_;
+    t.milliseconds = predicted_ms(costs_.drawing, f, planned.work, megapixels_);
     return t;
   }
 
   template <class Visit>
   void each(Visit&& visit) const noexcept {
     for (std::size_t i = 0; i < count_; ++i) {
-      for (const int size : sizes_) {
-        for (std::size_t filter = 0; filter < costs_.filters.size(); ++filter)
-          visit(priced(all_[i], size, filter));
-      }
+      for (std::size_t filter = 0; filter < costs_.filters.size(); ++filter) visit(priced(all_[i], filter));
     }
   }
 
   const CostModel& costs_;
-  std::span<const int> sizes_;
   double megapixels_;
   bool any_time_ = false;
-  std::array<Parametrization, TechniqueSet::kMost> all_;
+  std::array<Planned, TechniqueSet::kMost> all_;
   std::size_t count_ = 0;
 };
 
@@ -235,12 +218,6 @@ void for_each_caster(const ShadowMap& map, const Boxes& casters, Use&& use) noex
 
 }  // namespace
 
-double planned_error(const ShadowPlan& plan, const View& view, const SceneBounds& bounds) noexcept {
-  const AliasingStats seen = measure(plan, view, bounds, kGrid);
-  return seen.samples > 0 || view.points_world.empty() ? seen.mean
-                                                       : measure(plan, view.camera, bounds, kGrid).mean;
-}
-
 PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,
                       std::span<const CasterWork> casters) noexcept {
   PlanWork work;
@@ -263,37 +240,43 @@ PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,
   return work;
 }
 
-TechniqueChoice choose_technique(const View& view, const Light& light, const SceneBounds& bounds,
-                                 std::span<const CasterWork> casters, const TechniqueSet& among,
-                                 const Budget& budget, const CostModel& costs,
+double predicted_ms(const DrawingCosts& costs, const FilterCost& filter, const PlanWork& work,
+                    double megapixels) noexcept {
+  return costs.per_frame + costs.per_map * work.maps + costs.per_megatexel * work.megatexels +
+         costs.per_kilodraw * work.kilodraws + costs.per_megatriangle * work.megatriangles +
+         costs.per_megatexel_tested * work.megatexels_tested + filter.prefilter_ms_per_map * work.maps +
+         filter.prefilter_ms_per_megatexel * work.megatexels + filter.lookup_ms_per_megapixel * megapixels;
+}
+
+TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, const Light& light,
+                                 const SceneBounds& bounds, std::span<const CasterWork> casters,
+                                 const TechniqueSet& among, const Budget& budget, const CostModel& costs,
                                  const PlanOptions& base) noexcept {
   TechniqueChoice choice;
   choice.invalid_field = broken(budget, costs, among);
+  if (choice.invalid_field.empty() && !fits(shadow)) choice.invalid_field = "shadow";
   if (!choice.invalid_field.empty()) return choice;
-  // Points tell where errors count; they do not shape the maps.
-  const View planned{.camera = view.camera, .depths = view.depths};
-  Choosing choosing(view.camera, costs, given_or(among.map_sizes, kSizes));
+  Choosing choosing(view.camera, costs);
   const bool positional = !std::holds_alternative<DirectionalLight>(light);
   const std::span<const int> cascades = given_or(among.cascades, kCascades);
+  const auto add = [&](Technique t) {
+    const ShadowPlan plan = make_plan(view, light, bounds, options_of(base, t));
+    choice.status = plan.status;
+    choice.invalid_field = plan.invalid_field;
+    if (plan.status != PlanStatus::ok) {
+      choice.plan = plan;
+      return false;
+    }
+    for (const ShadowMap& map : plan.maps()) t.texels += std::int64_t{map.width} * map.height;
+    choosing.add({t, expected_error(plan, shadow).share(), planned_work(plan, bounds, casters)});
+    return true;
+  };
   for (const Warp* warp : given_or(among.warps, kWarps)) {
     for (const SplitScheme split : given_or(among.splits, kSplits)) {
       for (const int count : positional ? cascades.first(1) : cascades) {
-        if (choosing.full()) break;
-        Technique t{warp, split, count, kReferenceSize};
-        const PlanOptions options = options_of(base, t);
-        const ShadowPlan plan = make_plan(planned, light, bounds, options);
-        if (plan.status != PlanStatus::ok) {
-          choice.status = plan.status;
-          choice.invalid_field = plan.invalid_field;
-          choice.plan = plan;
-          return choice;
+        for (const int size : given_or(among.map_sizes, kSizes)) {
+          if (!choosing.full() && !add({warp, split, count, size})) return choice;
         }
-        Parametrization p{
-            warp, split, count, planned_error(plan, view, bounds), 0.0, planned_work(plan, bounds, casters)};
-        for (const ShadowMap& map : plan.maps())
-          p.margin_share =
-              std::max(p.margin_share, static_cast<double>(map.filter_margin_texels) / kReferenceSize);
-        choosing.add(p);
       }
     }
   }
@@ -302,9 +285,7 @@ TechniqueChoice choose_technique(const View& view, const Light& light, const Sce
   choice.better = choosing.better_than(choice.chosen);
   choice.tried = choosing.tried();
   choice.options = options_of(base, choice.chosen);
-  choice.plan = make_plan(planned, light, bounds, choice.options);
-  choice.status = choice.plan.status;
-  choice.invalid_field = choice.plan.invalid_field;
+  choice.plan = make_plan(view, light, bounds, choice.options);
   return choice;
 }
 

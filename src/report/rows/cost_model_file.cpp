@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kCostSchema = "gnomon.cost.2";
+constexpr const char* kCostSchema = "gnomon.cost.3";
 constexpr std::uint64_t kMaxBytes = 1 << 20;  // larger than any cost model
 constexpr std::pair<const char*, double DrawingCosts::*> kDrawing[] = {
     {"frame_ms", &DrawingCosts::per_frame},

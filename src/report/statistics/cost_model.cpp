@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 
@@ -38,64 +39,62 @@ struct Part {
   }
 };
 
-/// How errors depend on m and on the filter: log wrong = view + filter + power of the filter * log m.
+/// How errors depend on those expected and on the filter: log wrong = view + filter + power of the filter *
+/// log expected. Views whose errors are others, such as leaks, have levels of their own, with a mean of 0.
 class ErrorLaw {
  public:
   explicit ErrorLaw(std::span<const Observation> observations) {
     for (const Observation& o : observations) {
-      if (o.wrong > 0.0 && o.m > 0.0 && std::isfinite(o.m))
-        points_.push_back({o.view, o.filter, std::log(o.m), std::log(o.wrong)});
+      // Counts scatter by their root, and the law by a fifth.
+      constexpr double kScatter = 0.2 * 0.2;
+      const double count = o.wrong * o.megapixels * 1e6;
+      if (count > 0.0 && o.expected > 0.0)
+        points_.push_back(
+            {o.view, o.filter, std::log(o.expected), std::log(o.wrong), 1.0 / (1.0 / count + kScatter)});
     }
     fit_powers();
-    // Levels of views and filters, by turns: each the mean of what the other leaves.
+    // Levels of filters and views, by turns: each the mean of what the other leaves.
     constexpr int kRounds = 50;
     for (int round = 0; round < kRounds; ++round) {
-      average(&Point::view, views_, filters_);
       average(&Point::filter, filters_, views_);
-    }
-    for (const auto& [name, power] : powers_) {
-      if (reference_.empty() || power > powers_.at(reference_)) reference_ = name;
+      average(&Point::view, views_, filters_);
+      centre(views_);
     }
   }
 
-  /// Beside the filter whose errors depend most on m.
   void tell(const std::string& filter, FilterCost& cost) const {
     const auto found = powers_.find(filter);
-    if (found == powers_.end() || powers_.at(reference_) < kFlat) return;
-    const double power = powers_.at(reference_);
-    cost.error_power = found->second / power;
-    cost.error_ratio = std::exp((filters_.at(filter) - filters_.at(reference_)) / power);
+    if (found == powers_.end()) return;
+    cost.error_power = found->second;
+    cost.error_ratio = std::exp(filters_.at(filter));
   }
 
  private:
-  /// Below it errors do not depend on m, and no m makes up for a filter.
-  static constexpr double kFlat = 0.05;
-
   struct Point {
     std::string view, filter;
-    double log_m, log_wrong;
+    double log_expected, log_wrong, weight;
   };
   using Levels = std::map<std::string, double>;
 
   /// Of each filter the slope within its views, for they differ in level.
   void fit_powers() {
     struct Mean {
-      double log_m = 0.0, log_wrong = 0.0, count = 0.0;
+      double log_expected = 0.0, log_wrong = 0.0, weight = 0.0;
     };
     std::map<std::pair<std::string, std::string>, Mean> means;
     for (const Point& p : points_) {
       Mean& mean = means[{p.view, p.filter}];
-      mean.log_m += p.log_m;
-      mean.log_wrong += p.log_wrong;
-      mean.count += 1.0;
+      mean.log_expected += p.weight * p.log_expected;
+      mean.log_wrong += p.weight * p.log_wrong;
+      mean.weight += p.weight;
     }
     std::map<std::string, std::pair<double, double>> sums;  // of x y and x x
     for (const Point& p : points_) {
       const Mean& mean = means.at({p.view, p.filter});
-      const double x = p.log_m - mean.log_m / mean.count;
+      const double x = p.log_expected - mean.log_expected / mean.weight;
       auto& [xy, xx] = sums[p.filter];
-      xy += x * (p.log_wrong - mean.log_wrong / mean.count);
-      xx += x * x;
+      xy += p.weight * x * (p.log_wrong - mean.log_wrong / mean.weight);
+      xx += p.weight * x * x;
     }
     for (const auto& [name, sum] : sums)
       powers_[name] = sum.second > 0.0 ? std::max(sum.first / sum.second, 0.0) : 0.0;
@@ -107,15 +106,21 @@ class ErrorLaw {
     for (const Point& p : points_) {
       const auto other = others.find(p.*other_key);
       auto& [sum, count] = sums[p.*key];
-      sum += p.log_wrong - powers_.at(p.filter) * p.log_m - (other == others.end() ? 0.0 : other->second);
+      sum +=
+          p.log_wrong - powers_.at(p.filter) * p.log_expected - (other == others.end() ? 0.0 : other->second);
       count += 1.0;
     }
     for (const auto& [name, sum] : sums) levels[name] = sum.first / sum.second;
   }
 
+  static void centre(Levels& levels) {
+    double sum = 0.0;
+    for (const auto& [name, level] : levels) sum += level;
+    for (auto& [name, level] : levels) level -= sum / static_cast<double>(levels.size());
+  }
+
   std::vector<Point> points_;
   Levels views_, filters_, powers_;
-  std::string reference_;
 };
 
 }  // namespace
@@ -157,6 +162,13 @@ CostModel StoredCostModel::view(std::vector<FilterCost>& costs) const {
     costs.back().name = filter.name;
   }
   return {drawing, costs};
+}
+
+double predicted_ms(const StoredCostModel& model, const Observation& observation) noexcept {
+  const auto filter = std::find_if(model.filters.begin(), model.filters.end(),
+                                   [&](const auto& one) { return one.name == observation.filter; });
+  if (filter == model.filters.end()) return std::numeric_limits<double>::infinity();
+  return gnomon::predicted_ms(model.drawing, filter->cost, observation.work, observation.megapixels);
 }
 
 StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine) {

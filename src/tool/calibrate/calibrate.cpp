@@ -55,7 +55,7 @@ void print_model(const report::StoredCostModel& m, const std::string& file) {
       d.per_megatexel_tested));
   print_line(
       "\n| filter | prefilter ms per map | per million texels | look-up ms per million pixels | "
-      "bytes per texel | error at m = 1 | power of m |\n|--|--:|--:|--:|--:|--:|--:|");
+      "bytes per texel | factor of the expected error | its power |\n|--|--:|--:|--:|--:|--:|--:|");
   for (const auto& [name, c] : m.filters) {
     print_line(fmt::format("| {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} | {:.3f} | {:.3f} |", name,
                            c.prefilter_ms_per_map, c.prefilter_ms_per_megatexel, c.lookup_ms_per_megapixel,

@@ -7,7 +7,7 @@
 
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
-#include "gnomon/trace/seen_points.hpp"
+#include "gnomon/trace/seen_shadow.hpp"
 #include "scene_view.hpp"
 
 namespace gnomon::tool {
@@ -31,14 +31,10 @@ class Replanned {
   [[nodiscard]] TechniqueChoice choose(const View& view, const Budget& budget, const CostModel& costs) const;
 
  private:
-  [[nodiscard]] gnomon::View seen_view() const noexcept {
-    return {.camera = camera_, .points_world = visible_};
-  }
-
   std::string name_;
   SceneView scene_;
   Camera camera_;
-  std::vector<glm::dvec3> visible_;
+  trace::SeenShadow shadow_;
 };
 
 /// Asks for picks within budgets and at errors from end to end of what each view measured, and prints for

@@ -19,6 +19,15 @@ namespace {
 /// Frames that are looked at: a flight changes slowly.
 constexpr int kMaxPlanFrames = 16;
 
+/// The camera with as many pixels as are worth the time: as many are counted for each technique.
+Camera smaller(Camera camera) noexcept {
+  constexpr int kMaxWidth = 320;
+  const double scale = std::min(1.0, static_cast<double>(kMaxWidth) / camera.width);
+  camera.width = std::max(static_cast<int>(camera.width * scale), 1);
+  camera.height = std::max(static_cast<int>(camera.height * scale), 1);
+  return camera;
+}
+
 /// Filters that the program knows, with what they cost; without a model the one that was given, at no cost.
 struct Known {
   CostModel costs;
@@ -39,10 +48,10 @@ void know(const Options& options, const report::StoredCostModel& model, Known& k
 }
 
 std::string text_of(const Technique& t, const Known& known) {
-  std::string text =
-      fmt::format("{} / {} x {} / {}: mean m {:.2f}, {:.1f} million texels", t.warp->name, t.cascades,
-                  t.map_size, render::to_string(known.settings[static_cast<std::size_t>(t.filter)]), t.error,
-                  static_cast<double>(t.texels) / 1e6);
+  std::string text = fmt::format(
+      "{} / {} x {} / {}: {:.3f} % misclassified pixels expected, {:.1f} million texels", t.warp->name,
+      t.cascades, t.map_size, render::to_string(known.settings[static_cast<std::size_t>(t.filter)]),
+      100.0 * t.error, static_cast<double>(t.texels) / 1e6);
   // Without a cost model nobody knows.
   if (t.milliseconds > 0.0) text += fmt::format(", {:.1f} ms", t.milliseconds);
   return text;
@@ -72,17 +81,16 @@ void choose_technique_of(Options& options, const Flight& flight) {
   know(options, model, known);
   const std::vector<CasterWork> work = caster_work(flight.scene);
   const Light light = light_of(options, flight.scene);
-  const VisiblePointsOf visible_points(flight.scene);
+  const SeenShadowOf seen_shadow(flight.scene);
   TechniqueChoice hardest;
   const int frames = std::min(options.frames, kMaxPlanFrames);
   for (int i = 0; i < frames; ++i) {
     // The middle of each of `frames` equal parts.
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
     const Camera camera = camera_of(options, flight, frame);
-    const std::vector<glm::dvec3> points = visible_points(camera, light);
-    const TechniqueChoice choice =
-        choose_technique({.camera = camera, .points_world = points}, light, flight.bounds(), work, {},
-                         options.budget, known.costs, options.plan);
+    const auto shadow = seen_shadow(smaller(camera), light);
+    const TechniqueChoice choice = choose_technique(camera, shadow.picture(), light, flight.bounds(), work,
+                                                    {}, options.budget, known.costs, options.plan);
     if (choice.status == PlanStatus::invalid_input)
       throw std::runtime_error(fmt::format("frame {}: no technique for {}", frame, choice.invalid_field));
     if (choice.status != PlanStatus::ok) continue;

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <stdexcept>
 #include <vector>
 
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/scene/scene.hpp"
+#include "gnomon/study/expected_error.hpp"
 #ifdef GNOMON_HAS_TRACE
 #include "gnomon/trace/seen_points.hpp"
+#include "gnomon/trace/seen_shadow.hpp"
 #endif
 
 namespace gnomon::tool::fly {
@@ -27,6 +30,30 @@ class VisiblePointsOf {
 #else
   explicit VisiblePointsOf(const Scene&) {}
   std::vector<glm::dvec3> operator()(const Camera&, const Light&) const {
+    return {};
+  }
+#endif
+};
+
+/// The shadow in one scene, for choose_technique. Throws std::runtime_error where rays were not built in.
+class SeenShadowOf {
+ public:
+#ifdef GNOMON_HAS_TRACE
+  explicit SeenShadowOf(const Scene& scene) : tracer_(scene) {}
+  trace::SeenShadow operator()(const Camera& camera, const Light& light) const {
+    return trace::seen_shadow(tracer_, camera, light);
+  }
+
+ private:
+  trace::Tracer tracer_;
+#else
+  struct None {
+    [[nodiscard]] ShadowPicture picture() const noexcept { return {}; }
+  };
+  explicit SeenShadowOf(const Scene&) {
+    throw std::runtime_error("--budget-ms, --target-error: count pixels by rays, which were not built in");
+  }
+  None operator()(const Camera&, const Light&) const {
     return {};
   }
 #endif

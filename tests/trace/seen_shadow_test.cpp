@@ -1,0 +1,69 @@
+// Is the traced shadow of a picture the one that can be worked out by hand?
+#include "gnomon/trace/seen_shadow.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "render/test_scene.hpp"
+
+namespace gnomon::trace {
+namespace {
+
+using render::add_mesh;
+using render::empty_scene;
+
+/// 200 x 200 at height 0, and a roof of 4 x 2 at height 3 over x in [-2, 2], z in [-1, 1].
+Scene roofed() {
+  Scene scene = empty_scene();
+  add_mesh(scene,
+           {{-100, 0, 100}, {100, 0, 100}, {100, 0, -100}, {-100, 0, 100}, {100, 0, -100}, {-100, 0, -100}});
+  add_mesh(scene, {{-2, 3, 1}, {2, 3, 1}, {2, 3, -1}, {-2, 3, 1}, {2, 3, -1}, {-2, 3, -1}});
+  return scene;
+}
+
+constexpr int kWidth = 40, kHeight = 20;
+
+TEST(SeenShadow, of_a_roof_lies_where_the_light_puts_it) {
+  // From below the roof straight down: ten by five units, a quarter of one for each pixel.
+  const Camera down =
+      orthographic_camera({0, 2, 0}, {0, -1, 0}, {0, 0, -1}, 5.0, 2.0, 0.1, 50, kWidth, kHeight);
+  const SeenShadow seen = seen_shadow(Tracer(roofed()), down, DirectionalLight{{1, -1, 0}});
+  ASSERT_EQ(seen.mask.size(), static_cast<std::size_t>(kWidth * kHeight));
+  int dark = 0;
+  for (int i = 0; i < kWidth * kHeight; ++i) {
+    const double x = (i % kWidth + 0.5) * 0.25 - 5.0, z = (i / kWidth + 0.5) * 0.25 - 2.5;
+    const bool in_shadow = x > 1.0 && x < 5.0 && std::abs(z) < 1.0;
+    const auto pixel = static_cast<std::size_t>(i);
+    EXPECT_EQ(seen.mask[pixel], in_shadow ? 0.0f : 1.0f) << x << ' ' << z;
+    EXPECT_FLOAT_EQ(seen.view_depths[pixel], 2.0f);
+    dark += in_shadow ? 1 : 0;
+  }
+  EXPECT_EQ(dark, 16 * 8);
+  EXPECT_EQ(seen.picture().mask.data(), seen.mask.data());
+  EXPECT_EQ(seen.picture().camera.width, kWidth);
+}
+
+TEST(SeenShadow, sky_has_no_depth_and_what_the_light_does_not_reach_does_not_count) {
+  const Camera level =
+      perspective_camera({0, 2, 90}, {0, 0, -1}, {0, 1, 0}, 1.0, 2.0, 0.1, 1000, kWidth, kHeight);
+  const SeenShadow from_below = seen_shadow(Tracer(roofed()), level, DirectionalLight{{0, 1, 0.1}});
+  const SeenShadow near_light = seen_shadow(Tracer(roofed()), level, PointLight{{0, 5, 80}, 6.0});
+  int sky = 0, ground = 0, reached = 0;
+  for (std::size_t i = 0; i < from_below.mask.size(); ++i) {
+    EXPECT_EQ(from_below.mask[i], -1.0f);
+    EXPECT_EQ(from_below.view_depths[i], near_light.view_depths[i]);
+    (from_below.view_depths[i] > 0.0f ? ground : sky) += 1;
+    reached += near_light.mask[i] > 0.0f ? 1 : 0;
+  }
+  EXPECT_GT(sky, 300);
+  EXPECT_GT(ground, 300);
+  EXPECT_GT(reached, 0);
+  EXPECT_LT(reached, ground);
+  Camera none = level;
+  none.width = 0;
+  EXPECT_TRUE(seen_shadow(Tracer(roofed()), none, DirectionalLight{{0, -1, 0}}).mask.empty());
+}
+
+}  // namespace
+}  // namespace gnomon::trace
