@@ -140,7 +140,7 @@ struct SplitOptions {
   bool operator==(const SplitOptions&) const = default;
 };
 
-/// Error that a parametrization minimises.
+/// Error that a parametrization minimises. It counts from the nearest receiver on, where there are several.
 enum class Objective : std::uint8_t {
   storage,  ///< max m_s times max m_t: texels needed per pixel for m <= 1 along both axes everywhere
   max,      ///< the worst texel

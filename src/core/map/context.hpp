@@ -44,7 +44,8 @@ struct PlanContext {
   std::span<const glm::dvec3> visible_points = {};  // world space; empty: unknown
   std::span<const glm::dvec3> seen = {};  // of Objective::picture, relative to the camera; empty: unknown
   double caster_reach = 0.0;              // of casters from the camera along any axis, for Objective::picture
-  bool same_light = false;                // as in the last frame, to the last bit
+  double nearest_receiver = 0.0;  // no receiver in view has a smaller view depth, for the other objectives
+  bool same_light = false;        // as in the last frame, to the last bit
   std::span<const SharedView> views = {};  // cameras that share the maps; empty: `camera` alone
   std::int64_t frame = 0;                  // of the history
   // The last frame's, with a history.

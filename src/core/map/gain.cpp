@@ -133,8 +133,12 @@ double inner_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
   const bool exact =
       in.objective != Objective::p95 && !in.light.perspective && !(in.tan_half_fov > kWideSlope);
   const double turned = turned_pixels(in, choice);
-  if (!opposed && (exact || !(ratio > kSure))) return ratio * turned;
-  return max_of(ratio, sampled_ratio(in, choice, true, 1)) * turned * unsure;
+  if (!opposed && !(turned > 1.0) && (exact || !(ratio > kSure))) return ratio;
+  // Of what two sets of points between the corners show, others may show a little more.
+  constexpr double kBetween = 1.15;
+  double sampled = max_of(ratio, sampled_ratio(in, choice, true, 1));
+  if (turned > 1.0) sampled = max_of(sampled, sampled_ratio(in, choice, true, 0)) * min_of(turned, kBetween);
+  return sampled * unsure;
 }
 
 }  // namespace

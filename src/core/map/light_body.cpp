@@ -71,10 +71,10 @@ WarpInput::Point light_point(const PlanContext& c, const LightSpace& space, cons
   return {(p.x - space.apex.x) * h, (p.y - space.apex.y) * h, h, depth * h};
 }
 
-/// View depth from which the error of the request's map counts: in the band of a transition the map before it
-/// still shows.
+/// View depth from which the error of the request's map counts. Before the receivers is air, though the box
+/// round all of them may hold the eye; in the band of a transition the map before it still shows.
 double counted_from(const PlanContext& c, const MapRequest& request) noexcept {
-  const double hint = c.options.split.pseudo_near, band = request.slot.overlap;
+  const double hint = max_of(c.options.split.pseudo_near, c.nearest_receiver), band = request.slot.overlap;
   return band > 0.0 ? max_of(hint, request.begin + band) : hint;
 }
 

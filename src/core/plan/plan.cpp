@@ -121,6 +121,21 @@ PlanContext begin_plan(const Camera& camera, const SceneBounds& bounds, const Re
   return context;
 }
 
+/// The least view depth of a receiver in view, where warps are judged by a body that begins well before it;
+/// else 0. Out of line: most plans need no room for the frustum.
+[[gnu::noinline]] double nearest_receiver(const PlanContext& c) noexcept {
+  const Camera& camera = c.camera;
+  const bool by_body = c.options.warp.objective != Objective::picture && c.how.warp != &warps::none;
+  if (!by_body || camera.orthographic || !several(c.bounds.receivers)) return 0.0;
+  const Polytope frustum = frustum_slice(camera, c.axes, camera.near_depth, camera.far_depth);
+  const double nearest =
+      nearest_inside({frustum.plane.data(), static_cast<std::size_t>(frustum.face_count)}, frustum,
+                     c.bounds.receivers, camera.position, -c.axes.forward, glm::dvec3(0.0), 0.0)
+          .nearest;
+  constexpr double kWellBefore = 1.05, kRounding = 1.0 - 1e-9;
+  return nearest > kWellBefore * camera.near_depth && nearest < camera.far_depth ? nearest * kRounding : 0.0;
+}
+
 /// Forgets what was planned with other options: maps that are cached, and where searches begin.
 void forget_other_options(const PlanOptions& options, PlanHistory& history) noexcept {
   if (options == history.options) return;
@@ -177,6 +192,7 @@ void plan_by_light(PlanContext& c, const Light& light, const Resolved& resolved,
                                               has_depths, !view.points_world.empty()});
   PlanContext context = begin_plan(view.camera, bounds, resolved, plan);
   if (history != nullptr) resume(light, *history, context);
+  if (views <= 1) context.nearest_receiver = nearest_receiver(context);
   if (resolved.follows_points) context.visible_points = view.points_world;
   if (resolved.counts_seen) {
     plan_by_seen(context, view, light, resolved, history, plan);

@@ -31,7 +31,8 @@ struct EvenRays {
     }
   }
 };
-constexpr std::array<EvenRays, 2> kEvenRays = {EvenRays(0), EvenRays(1)};
+constexpr std::array<EvenRays, kRaySets> kEvenRays = {EvenRays(0), EvenRays(1), EvenRays(2), EvenRays(3),
+                                                      EvenRays(4), EvenRays(5), EvenRays(6), EvenRays(7)};
 
 /// A face of the body as a bound on 1 / depth along the ray (x, y, 1) of the image: linear in x and y, so
 /// that finding where a ray is inside the body takes no division.

@@ -38,8 +38,10 @@ void add_vertices(const Polytope& body, double size, PixelLanes& lanes) noexcept
 void add_middles(const Polytope& body, double size, PixelLanes& lanes) noexcept;
 /// The middles of faces.
 void add_faces(const Polytope& body, double size, PixelLanes& lanes) noexcept;
-/// Points spread evenly over the pixels that show the body, and over the logarithm of depth. `set`: 0, or 1
-/// for others of the same spread.
+/// Sets of points that have none in common.
+inline constexpr int kRaySets = 8;
+/// Points spread evenly over the pixels that show the body, and over the logarithm of depth. `set`: below
+/// kRaySets.
 void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noexcept;
 
 /// Points of surfaces that are seen.

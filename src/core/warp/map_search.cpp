@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
+#include "warp/percentile_choice.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
 #include "warp/registry.hpp"
@@ -383,6 +384,7 @@ WarpChoice search_map(const WarpInput& given, SearchEffort effort) noexcept {
     if (improve_by_others(input, error, best) && !line)
       best = turned(input, error, best, quick ? quick_rounds(input.objective) : kThoroughRounds, kStep);
     choice = judged_choice(input, best, without);
+    if (error.is_percentile()) choice = best_percentile(input, choice);
   }
   measure_last(input, error, without, choice);
   return choice;

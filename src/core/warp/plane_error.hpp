@@ -17,7 +17,7 @@ namespace gnomon {
 inline constexpr double kWideSlope = 1.75;
 /// Cosine between the eye's rays and the light's below which they come to meet: the half vector turns fast
 /// between them, and the worst texel may lie anywhere.
-inline constexpr double kOpposedCosine = -0.5;
+inline constexpr double kOpposedCosine = -0.35;
 
 /// Maps of the light plane, side by side. Rows may have any length.
 struct ChoiceLanes {
@@ -47,7 +47,7 @@ class PlaneError {
   /// (under a local light of faces, too, as its rays fan out), or points spread evenly over the pixels and
   /// the logarithm of depth, or points that are seen. `searched`: the choices come from a search, which would
   /// end where no sample is; where rays fan out wide, the inside of the body counts then as well. `set`:
-  /// other points of the same spread, from 0 on.
+  /// other points of the same spread, below kRaySets.
   explicit PlaneError(const WarpInput& input, bool searched = false, int set = 0) noexcept;
 
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
@@ -75,6 +75,8 @@ class PlaneError {
   [[nodiscard]] std::size_t above() const noexcept { return above_; }
   /// The value is the mean over the samples.
   [[nodiscard]] bool is_mean() const noexcept { return mean_; }
+  /// Some samples may exceed the value.
+  [[nodiscard]] bool is_percentile() const noexcept { return share_ > 0.0; }
 
  private:
   /// Of a percentile's samples, of those that are seen, and of those that lack a vertex, corners are no part.
