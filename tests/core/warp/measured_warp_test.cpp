@@ -10,15 +10,17 @@
 namespace gnomon::test {
 namespace {
 
-/// A camera under a stair, the steps of which are all that it sees, from half a unit off.
+/// A camera under a stair, the steps of which are all that it sees: the box round them holds the eye.
 struct Stair {
-  Camera camera = perspective_camera({-0.7, 12.7, -39.1}, {0.54, -0.01, 0.84}, {0, 1, 0}, 1.05, 6.0, 2.5e-5,
-                                     700, 100, 100);
+  Camera camera = perspective_camera({-0.673, 12.687, -39.098}, {0.535, -0.008, 0.845}, {0, 1, 0}, 1.047,
+                                     6.09, 2.5e-5, 700, 100, 100);
   DirectionalLight sun{{-0.21, -0.53, 0.13}};
   std::vector<Box> steps;
   Stair() {
+    constexpr double kHalfWidth = 1.636, kRise = 0.1636, kTread = 0.4908;
     for (int i = 0; i < 100; ++i)
-      steps.push_back({{-1.6, 0.16 * i, -0.49 * (i + 1)}, {1.6, 0.16 * (i + 1), -0.49 * i}});
+      steps.push_back(
+          {{-kHalfWidth, kRise * i, -kTread * (i + 1)}, {kHalfWidth, kRise * (i + 1), -kTread * i}});
   }
   [[nodiscard]] AliasingStats measured(const Warp& warp, Objective objective) const {
     PlanOptions options;
