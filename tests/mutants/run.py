@@ -20,7 +20,7 @@ DRAWN = ["filter_fit_test", "render_pages_test", "render_animation_test", "prune
 SUITES = {  # the quick ones first
     "src/core/": ["core_tests", "core_golden_tests", "core_extreme_tests", "core_laws_tests"],
     "src/scene/": ["load_gltf_test", "gltf_refusal_test", "gltf_confinement_test", "gltf_skin_test", "animation_test",
-                   "scene_image_test", "camera_path_test", "builtin_scene_test"],
+                   "scene_image_test", "camera_path_test", "builtin_scene_test", "default_view_test"],
     "src/casefile/": ["casefile_test"],
     "src/judge/": ["judge_test"],
     "src/report/": ["report_test"],
@@ -37,6 +37,7 @@ SUITES = {  # the quick ones first
 }
 # What is built beside core, scene and case files, by the folder whose faults need it.
 PARTS = {
+    "src/scene/": ["TRACE"],
     "src/report/": ["REPORT"],
     "src/trace/": ["TRACE"],
     "src/render/": ["RENDER", "TRACE"],

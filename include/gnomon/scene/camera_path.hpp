@@ -46,10 +46,12 @@ struct Sight {
 /// change while the eye moves. The default where all boxes are empty.
 [[nodiscard]] Sight sight_from(const glm::dvec3& eye, std::span<const Box> boxes) noexcept;
 
-/// The default flight of a builtin scene, by its name. Any other scene has an orbit that shows all of it, as
-/// near as an image of this width over height allows. The default holds it in a square image and in wider
-/// ones. The orbit is about what remains without grounds and skies that are over four times as large as the
-/// rest. A ground is flat, a sky faces its own middle.
+/// The default flight of a builtin scene, by its name. Any other scene has an orbit that shows all that it is
+/// about, as near as an image of this width over height allows. The default holds it in a square image and
+/// in wider ones. It begins near the front (+Z), 25 degrees up. It begins higher where what lies flat would
+/// fill less than three tenths of the image, or where hills hide it.
+/// Skies, grounds, backdrops and strays do not count (docs/viewer.md#default-views). A room is flown
+/// through from inside.
 [[nodiscard]] CameraPath default_path(const Scene& scene, double aspect = 1.0);
 
 }  // namespace gnomon
