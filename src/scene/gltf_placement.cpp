@@ -1,4 +1,4 @@
-// Which nodes does a glTF document hide, and which of them stand in many places?
+// Which nodes does a glTF document hide, which stand in many places, and which cast and receive shadows?
 // Based on: Khronos Group, EXT_mesh_gpu_instancing and KHR_node_visibility (glTF extensions).
 #include "gltf_placement.hpp"
 
@@ -43,6 +43,38 @@ PlacementSource::Places places_in(const json& source, const json& node, const st
   return places;
 }
 
+// Tools write what a user calls so: true and false, or 1 and 0 where they have no booleans.
+void take_flag(const json& owner, const char* name, const std::string& where, bool& flag,
+               std::vector<std::string>& warnings) {
+  const json* extras = find_object(owner, "extras");
+  if (extras == nullptr || !extras->contains(name)) return;
+  const json& value = extras->at(name);
+  if (value.is_boolean())
+    flag = value.get<bool>();
+  else if (value.is_number() && (value == 0 || value == 1))
+    flag = value == 1;
+  else
+    warn(warnings, where + ".extras." + name, "is not true or false, and does not count");
+}
+
+PlacementSource::Shadows shadows_of(const json& source, const json& node, const std::string& where,
+                                    std::vector<std::string>& warnings) {
+  PlacementSource::Shadows shadows;
+  const auto take = [&](const json& owner, const std::string& of) {
+    take_flag(owner, "castShadow", of, shadows.casts, warnings);
+    take_flag(owner, "receiveShadow", of, shadows.receives, warnings);
+  };
+  const auto meshes = source.find("meshes");
+  const auto mesh = node.is_object() ? node.find("mesh") : node.end();
+  if (mesh != node.end() && mesh->is_number_unsigned() && meshes != source.end() && meshes->is_array() &&
+      mesh->get<std::uint64_t>() < meshes->size()) {
+    const auto index = mesh->get<std::size_t>();
+    take((*meshes)[index], element("meshes", index));
+  }
+  take(node, where);
+  return shadows;
+}
+
 }  // namespace
 
 PlacementSource read_placement_source(const json& source, std::vector<std::string>& warnings) {
@@ -53,6 +85,7 @@ PlacementSource read_placement_source(const json& source, std::vector<std::strin
     const std::string where = element("nodes", n);
     out.hidden.push_back(is_hidden((*nodes)[n], where, warnings));
     out.places.push_back(places_in(source, (*nodes)[n], where, warnings));
+    out.shadows.push_back(shadows_of(source, (*nodes)[n], where, warnings));
   }
   return out;
 }

@@ -1,4 +1,4 @@
-// Which nodes does a glTF document hide, and which of them stand in many places?
+// Which nodes does a glTF document hide, which stand in many places, and which cast and receive shadows?
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -14,7 +14,7 @@ class Model;
 
 namespace gnomon::detail {
 
-/// What extensions of nodes say; one entry for each node.
+/// What extensions and extras of nodes say; one entry for each node.
 struct PlacementSource {
   /// Accessors of EXT_mesh_gpu_instancing; -1: none.
   struct Places {
@@ -23,6 +23,11 @@ struct PlacementSource {
   };
   std::vector<bool> hidden;  ///< by KHR_node_visibility, with all that hangs on it
   std::vector<Places> places;
+  /// By `extras` of the node, else of its mesh.
+  struct Shadows {
+    bool casts = true, receives = true;
+  };
+  std::vector<Shadows> shadows;
 };
 
 /// A broken extension is warned of, and counts as none.

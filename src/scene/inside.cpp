@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "orbit.hpp"
+
 namespace gnomon::detail {
 namespace {
 
@@ -149,7 +151,7 @@ CameraPath round_within(const std::vector<SurfaceSample>& samples, const glm::dv
         {stand + out * back, stand - out * (kPart * ahead) - glm::dvec3(0.0, 0.08 * (back + ahead), 0.0)});
     if (back + ahead > kLonger * longest_view) longest_view = back + ahead, first = path.keys.size() - 1;
   }
-  std::rotate(path.keys.begin(), path.keys.begin() + static_cast<std::ptrdiff_t>(first), path.keys.end());
+  put_in_the_middle(path, first);
   double nearest = std::numeric_limits<double>::infinity();
   for (const CameraKey& key : path.keys)
     nearest = std::min(nearest, surroundings(samples, key.position).nearest);

@@ -8,7 +8,7 @@
 
 namespace gnomon::detail {
 
-/// A closed flight within a space that surfaces enclose: always across its middle, the longest view first.
+/// A closed flight within a space that surfaces enclose: always across its middle, the longest view halfway.
 /// Nothing where the scene is looked at from outside. `origin`: of the samples.
 [[nodiscard]] std::optional<CameraPath> inside_path(const ViewSubject& subject,
                                                     const std::vector<SurfaceSample>& samples,

@@ -25,7 +25,8 @@ using detail::Refusal;
 
 class Placer {
  public:
-  Placer(const LoadLimits& limits, Scene& scene) : limits_(limits), scene_(scene) {}
+  Placer(const detail::Document& document, const LoadLimits& limits, Scene& scene)
+      : shadows_(document.placement.shadows), limits_(limits), scene_(scene) {}
 
   std::uint32_t place(std::uint32_t primitive, const glm::dmat4& world_from_object, std::size_t node) {
     triangles_ += scene_.primitives[primitive].index_count / 3;
@@ -45,12 +46,17 @@ class Placer {
         detail::transformed_bounds(scene_, scene_.primitives[primitive], world_from_object);
     if (!detail::is_finite(instance.bounds_world))
       throw Refusal(element("nodes", node), "its vertices are not finite");
+    if (node < shadows_.size()) {
+      instance.casts = shadows_[node].casts;
+      instance.receives = shadows_[node].receives;
+    }
     scene_.bounds_world.extend(instance.bounds_world);
     scene_.instances.push_back(instance);
     return static_cast<std::uint32_t>(scene_.instances.size() - 1);
   }
 
  private:
+  const std::vector<detail::PlacementSource::Shadows>& shadows_;
   const LoadLimits& limits_;
   Scene& scene_;
   std::uint64_t triangles_ = 0;
@@ -113,7 +119,7 @@ class NodePlacer {
         scene_(scene),
         motion_(document, tree, limits, scene),
         meshes_(document, tree, limits, motion_, scene),
-        placer_(limits, scene) {}
+        placer_(document, limits, scene) {}
 
   void place(int n) {
     const auto index = static_cast<std::size_t>(n);

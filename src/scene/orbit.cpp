@@ -137,9 +137,9 @@ bool is_over(const Scene& scene, const std::vector<Piece>& lands, const CameraPa
   return true;
 }
 
-// Begins the orbit where the picture is full, as near to the front of the scene (+Z) as that allows. Returns
-// the covered share there.
-double begin_well(CameraPath& path, const std::vector<SurfaceSample>& samples, double aspect) {
+// Puts the fullest picture in the middle of the orbit, as near to the front of the scene (+Z) as that allows.
+// Returns the covered share there.
+double show_well(CameraPath& path, const std::vector<SurfaceSample>& samples, double aspect) {
   constexpr int kAside = kKeys / 5;  // keys to each side of the front: 67 degrees
   constexpr double kNearlyBest = 0.8;
   constexpr int kHeight = 90;  // pixels; only their ratio counts
@@ -158,8 +158,7 @@ double begin_well(CameraPath& path, const std::vector<SurfaceSample>& samples, d
   const double best = *std::max_element(shares.begin(), shares.end());
   std::size_t chosen = 0;
   while (shares[chosen] < kNearlyBest * best) ++chosen;
-  std::rotate(path.keys.begin(), path.keys.begin() + static_cast<std::ptrdiff_t>(keys[chosen]),
-              path.keys.end());
+  put_in_the_middle(path, keys[chosen]);
   return shares[chosen];
 }
 
@@ -176,7 +175,7 @@ CameraPath outside_path(const Scene& scene, const ViewSubject& subject, const st
   bool clear = false;
   for (const double rise : kRises) {
     CameraPath path = round_about(points, aspect, rise);
-    const double share = begin_well(path, samples, aspect);
+    const double share = show_well(path, samples, aspect);
     const bool over = is_over(scene, subject.lands, path, center);
     if (best.keys.empty() || (over && !clear) || (over == clear && share > kWorthIt * most)) {
       best = std::move(path);
@@ -189,6 +188,24 @@ CameraPath outside_path(const Scene& scene, const ViewSubject& subject, const st
 }
 
 }  // namespace
+
+void put_in_the_middle(CameraPath& path, std::size_t key) {
+  const CameraKey wanted = path.keys[key];
+  std::size_t best = 0;
+  constexpr double kLess = 0.999999;  // than rounding
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t turn = 0; turn < path.keys.size(); ++turn) {
+    const Camera middle = path.at(0.5, 1, 1);
+    const glm::dvec3 off = middle.position - wanted.position;
+    const double distance = glm::dot(off, off);
+    if (distance < kLess * least) {
+      least = distance;
+      best = turn;
+    }
+    std::rotate(path.keys.begin(), path.keys.begin() + 1, path.keys.end());
+  }
+  std::rotate(path.keys.begin(), path.keys.begin() + static_cast<std::ptrdiff_t>(best), path.keys.end());
+}
 
 CameraPath orbit(const Scene& scene, double aspect) {
   // Of the coordinates: doubles round them by 1e-16, and a smaller scene by more than parts of a pixel.

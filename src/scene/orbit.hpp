@@ -8,4 +8,8 @@ namespace gnomon::detail {
 /// default_path() of a scene that has no flight of its own.
 [[nodiscard]] CameraPath orbit(const Scene& scene, double aspect);
 
+/// Rotates the keys of a closed path so that its middle (time 0.5), which stands for all of it, is at this
+/// key, or as near as its keys allow.
+void put_in_the_middle(CameraPath& path, std::size_t key);
+
 }  // namespace gnomon::detail

@@ -19,13 +19,12 @@ SceneView::SceneView(const std::string& scene, const LightPlacement& light, cons
     : scene_(load_scene(scene, limits)),
       path_(camera_path(camera, scene_)),
       work_(caster_work(scene_)),
-      light_(default_light(light, scene_.bounds_world)) {
-  for (const Instance& instance : scene_.instances) boxes_.push_back(instance.bounds_world);
-}
+      boxes_(scene_),
+      light_(default_light(light, scene_.bounds_world)) {}
 
 void SceneView::take(const Pose& pose) {
   apply_pose(pose, scene_);
-  for (const PosedInstance& posed : pose.instances) boxes_[posed.instance] = posed.bounds_world;
+  for (const PosedInstance& posed : pose.instances) boxes_.place(posed.instance, posed.bounds_world);
 }
 
 Camera SceneView::camera(int frame, int frames, int width, int height) const noexcept {

@@ -11,6 +11,7 @@
 #include "gnomon/scene/load.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "gnomon/scene/scene.hpp"
+#include "gnomon/scene/shadow_boxes.hpp"
 #include "gnomon/study/technique.hpp"
 
 namespace gnomon::tool {
@@ -23,7 +24,7 @@ class SceneView {
 
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] const Light& light() const noexcept { return light_; }
-  [[nodiscard]] SceneBounds bounds() const noexcept { return {boxes_, boxes_}; }
+  [[nodiscard]] SceneBounds bounds() const noexcept { return boxes_.bounds(); }
   /// Places what a pose of this scene moves, but the light, which stays. bounds() follow in place.
   void take(const Pose& pose);
   /// Of each instance, as bounds() has them.
@@ -38,7 +39,7 @@ class SceneView {
   Scene scene_;
   CameraPath path_;
   std::vector<CasterWork> work_;
-  std::vector<Box> boxes_;
+  ShadowBoxes boxes_;
   Light light_;
 };
 

@@ -205,7 +205,8 @@ void Bvh::walk(const Ray& ray, double& end, Accept&& accept) const noexcept {
 bool Bvh::occluded(const Ray& ray) const noexcept {
   bool found = false;
   double end = ray.end;
-  walk(ray, end, [&found](std::uint32_t, double, double, double) { return found = true; });
+  walk(ray, end,
+       [&](std::uint32_t triangle, double, double, double) { return found = triangles_.casts[triangle]; });
   return found;
 }
 

@@ -19,7 +19,8 @@ struct FilterContext {
   std::array<std::uint32_t, kPacket> except;
 };
 
-/// Takes back hits on the triangle that a ray is not to see and on what alpha masks cut out.
+/// Takes back hits on the triangle that a ray is not to see, on what does not cast, and on what alpha masks
+/// cut out.
 void keep_true_hits(const RTCFilterFunctionNArguments* args) {
   const auto* context = reinterpret_cast<const FilterContext*>(args->context);
   for (unsigned i = 0; i < args->N; ++i) {
@@ -27,7 +28,7 @@ void keep_true_hits(const RTCFilterFunctionNArguments* args) {
     const unsigned triangle = RTCHitN_primID(args->hit, args->N, i);
     const unsigned ray = RTCRayN_id(args->ray, args->N, i);
     const bool there =
-        triangle != context->except[ray] &&
+        triangle != context->except[ray] && context->triangles->casts[triangle] &&
         context->triangles->is_there(triangle, static_cast<double>(RTCHitN_u(args->hit, args->N, i)),
                                      static_cast<double>(RTCHitN_v(args->hit, args->N, i)));
     if (!there) args->valid[i] = 0;

@@ -31,7 +31,7 @@ PixelReference pixel_reference(const Tracer& tracer, const Camera& camera, const
   const CameraAxes axes = camera_axes(camera);
   for_each_row(points.height, [&](int row) {
     struct Count {
-      std::size_t pixel, rays;
+      std::size_t pixel, rays, lit;  ///< `lit`: without a ray
     };
     std::vector<Ray> rays;
     std::vector<Count> counts;
@@ -41,6 +41,7 @@ PixelReference pixel_reference(const Tracer& tracer, const Camera& camera, const
       if (centre.state != PixelState::facing) continue;
       const double side = pixel_side(camera, axes, centre.position);
       const std::size_t before = rays.size();
+      std::size_t lit = 0;
       for (int s = 0; s < samples; ++s) {
         const glm::dvec2 at = stratified(static_cast<std::uint32_t>(pixel), s, samples);
         const SurfacePoint point =
@@ -53,19 +54,23 @@ PixelReference pixel_reference(const Tracer& tracer, const Camera& camera, const
                           std::abs(glm::dot(centre.normal, point.position - centre.position)) <= side;
         if (!same) result.several[pixel] = 1;
         if (!lightable) continue;
+        if (!point.receives) {
+          ++lit;
+          continue;
+        }
         const LightRay to_light = light_ray(light, point.position);
         rays.push_back(ray_off_plane(point, point.position, to_light.direction, to_light.distance,
                                      error_of(tracer, light, point)));
       }
-      if (rays.size() > before) counts.push_back({pixel, rays.size() - before});
+      if (rays.size() - before + lit > 0) counts.push_back({pixel, rays.size() - before, lit});
     }
     std::vector<std::uint8_t> stopped(rays.size());
     tracer.occluded(rays, stopped);
     std::size_t next = 0;
     for (const Count& count : counts) {
-      std::size_t lit = 0;
+      std::size_t lit = count.lit;
       for (std::size_t i = 0; i < count.rays; ++i) lit += stopped[next++] == 0 ? 1 : 0;
-      result.pixels[count.pixel] = static_cast<float>(lit) / static_cast<float>(count.rays);
+      result.pixels[count.pixel] = static_cast<float>(lit) / static_cast<float>(count.rays + count.lit);
     }
   });
   return result;

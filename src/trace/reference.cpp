@@ -52,6 +52,10 @@ SoftReference mean_of_rays(const Tracer& tracer, const SurfacePoints& points, in
     const std::size_t begin = static_cast<std::size_t>(row) * width;
     for (std::size_t i = begin; i < begin + width; ++i) {
       if (points.pixels[i].state != PixelState::facing) continue;
+      if (!points.pixels[i].receives) {
+        result.pixels[i] = 1.0f;
+        continue;
+      }
       pixels.push_back(i);
       for (int s = 0; s < samples; ++s)
         rays.push_back(make(points.pixels[i], static_cast<std::uint32_t>(i), s));
@@ -82,6 +86,10 @@ HardReference hard_reference(const Tracer& tracer, const SurfacePoints& points, 
       const SurfacePoint& point = points.pixels[i];
       if (point.state == PixelState::undecided) result.pixels[i] = Verdict::undecided;
       if (point.state != PixelState::facing) continue;
+      if (!point.receives) {
+        result.pixels[i] = Verdict::lit;
+        continue;
+      }
       pixels.push_back(i);
       const LightRay to_light = light_ray(light, point.position);
       const double error = error_of(tracer, light, point);

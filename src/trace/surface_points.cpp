@@ -38,6 +38,7 @@ SurfacePoint located(const Tracer& tracer, const Camera& camera, const Light& li
   const Hit hit = tracer.hit_nearest_to(view, 0.0);
   if (hit.triangle == kNoTriangle) return point;
   point.triangle = hit.triangle;
+  point.receives = tracer.receives(hit.triangle);
   point.normal = glm::dot(hit.normal, view.direction) > 0.0 ? -hit.normal : hit.normal;
   point.above = -hit.t * glm::dot(view.direction, point.normal);
   if (glm::dot(seen_normal, point.normal) < kSameNormal) return point;

@@ -33,6 +33,7 @@ namespace gnomon::trace {
   const Hit hit = tracer.first_seen(ray);
   if (hit.triangle == kNoTriangle) return point;
   point.triangle = hit.triangle;
+  point.receives = tracer.receives(hit.triangle);
   point.position = ray.origin + ray.direction * hit.t;
   point.normal = glm::dot(hit.normal, ray.direction) > 0.0 ? -hit.normal : hit.normal;
   const LightRay to_light = light_ray(light, point.position);

@@ -53,6 +53,10 @@ std::size_t Tracer::triangle_count() const noexcept {
   return impl_->triangles.corners.size();
 }
 
+bool Tracer::receives(std::uint32_t triangle) const noexcept {
+  return impl_->triangles.receives[triangle];
+}
+
 void Tracer::occluded(std::span<const Ray> rays, std::span<std::uint8_t> out) const {
   if (impl_->embree) {
     impl_->embree->occluded(rays, out);

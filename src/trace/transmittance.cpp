@@ -111,8 +111,9 @@ PaneTracer::~PaneTracer() = default;
 
 glm::dvec3 PaneTracer::transmittance(const Ray& ray) const {
   glm::dvec3 left(1.0);
-  impl_->bvh.each_hit(
-      ray, [&](std::uint32_t triangle, double b1, double b2) { left *= impl_->of(triangle, b1, b2); });
+  impl_->bvh.each_hit(ray, [&](std::uint32_t triangle, double b1, double b2) {
+    if (impl_->triangles.casts[triangle]) left *= impl_->of(triangle, b1, b2);
+  });
   return left;
 }
 
@@ -123,7 +124,7 @@ PaneReference pane_reference(const PaneTracer& panes, const SurfacePoints& point
     const auto width = static_cast<std::size_t>(points.width), first = static_cast<std::size_t>(row) * width;
     for (std::size_t i = first; i < first + width; ++i) {
       const SurfacePoint& point = points.pixels[i];
-      if (point.state != PixelState::facing) continue;
+      if (point.state != PixelState::facing || !point.receives) continue;
       const LightRay to_light = light_ray(light, point.position);
       Ray ray;
       ray.origin = point.position;

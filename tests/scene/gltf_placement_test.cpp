@@ -204,5 +204,47 @@ TEST(GltfVertexColours, a_mask_that_ends_within_a_triangle_leaves_it_whole) {
   EXPECT_NE(scene.warnings[0].find("vertex colours"), std::string::npos);
 }
 
+/// A mesh shown twice, and what `extras` of the mesh and of its second node say.
+TestGltf shown_twice(const json& of_mesh, const json& of_node) {
+  TestGltf gltf = one_triangle();
+  json second = {{"mesh", 0}};
+  if (!of_node.is_null()) second["extras"] = of_node;
+  gltf.show_node(second);
+  if (!of_mesh.is_null()) gltf.document["meshes"][0]["extras"] = of_mesh;
+  return gltf;
+}
+
+TEST(GltfPlacement, casting_and_receiving_are_of_the_node_else_of_its_mesh) {
+  const json off = {{"castShadow", false}, {"receiveShadow", 0}}, on = {{"castShadow", true}};
+  struct Case {
+    json mesh, node;
+    bool casts[2], receives[2];
+  };
+  for (const Case& one :
+       {Case{nullptr, nullptr, {true, true}, {true, true}},
+        Case{off, nullptr, {false, false}, {false, false}}, Case{nullptr, off, {true, false}, {true, false}},
+        Case{off, on, {false, true}, {false, false}},
+        Case{{{"other", 1}}, {{"receiveShadow", 1.0}}, {true, true}, {true, true}}}) {
+    const Scene scene = shown_twice(one.mesh, one.node).load();
+    EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+    ASSERT_EQ(scene.instances.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(scene.instances[i].casts, one.casts[i]) << one.mesh << one.node << i;
+      EXPECT_EQ(scene.instances[i].receives, one.receives[i]) << one.mesh << one.node << i;
+    }
+  }
+}
+
+TEST(GltfPlacement, extras_of_another_kind_are_a_warning_and_do_not_count) {
+  for (const json& wrong : {json("no"), json(2), json(nullptr), json::array()}) {
+    const Scene scene = shown_twice(nullptr, {{"castShadow", wrong}}).load();
+    EXPECT_TRUE(scene.instances[1].casts);
+    ASSERT_EQ(scene.warnings.size(), 1u) << wrong;
+    EXPECT_NE(scene.warnings[0].find("nodes[1].extras.castShadow"), std::string::npos) << scene.warnings[0];
+  }
+  // Extras may be anything.
+  EXPECT_TRUE(shown_twice(3, "text").load().warnings.empty());
+}
+
 }  // namespace
 }  // namespace gnomon::test

@@ -69,7 +69,7 @@ TEST_P(DefaultView, shows_content_in_a_quarter_of_the_picture) {
   for (int i = 0; i < 8; ++i) {
     const Camera camera = path.at(i / 8.0, kWidth, kHeight);
     const Shown shown = shown_of(tracer, content, camera);
-    if (i == 0) {
+    if (i == 4) {  // what the viewer opens with, and a flight of one frame
       RecordProperty("share_percent", static_cast<int>(100 * shown.share));
       EXPECT_TRUE(shown.fills()) << shown.share << " " << shown.width << " x " << shown.height;
     }

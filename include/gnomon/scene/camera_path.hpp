@@ -48,7 +48,7 @@ struct Sight {
 
 /// The default flight of a builtin scene, by its name. Any other scene has an orbit that shows all that it is
 /// about, as near as an image of this width over height allows. The default holds it in a square image and
-/// in wider ones. It begins near the front (+Z), 25 degrees up. It begins higher where what lies flat would
+/// in wider ones. Its middle is near the front (+Z), 25 degrees up. It is higher where what lies flat would
 /// fill less than three tenths of the image, or where hills hide it.
 /// Skies, grounds, backdrops and strays do not count (docs/viewer.md#default-views). A room is flown
 /// through from inside.

@@ -57,6 +57,8 @@ struct Instance {
   glm::dmat4 world_from_object{1.0};  ///< affine
   std::uint32_t primitive = 0;        ///< index into Scene::primitives
   bool mirrored = false;              ///< the transform turns the winding round (negative determinant)
+  bool casts = true;                  ///< false: no shadow of it falls on anything, nor on itself
+  bool receives = true;               ///< false: no shadow falls on it, it is lit wherever it faces the light
   Box bounds_world;                   ///< of the transformed vertices, not of the transformed box
 };
 

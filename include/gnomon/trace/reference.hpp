@@ -31,6 +31,7 @@ struct SurfacePoint {
   std::uint32_t triangle = kNoTriangle;  ///< index within the tracer
   glm::dvec3 position{0.0};              ///< world
   glm::dvec3 normal{0.0};                ///< of the triangle, unit, turned to the viewer
+  bool receives = true;                  ///< false: lit where it faces the light, whatever stands before that
   double above = 0.0;  ///< height of `position` over the triangle's plane along `normal`: rounding
 };
 

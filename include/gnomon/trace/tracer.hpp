@@ -64,8 +64,10 @@ class Tracer {
   /// Triangles of all instances.
   [[nodiscard]] std::size_t triangle_count() const noexcept;
 
-  /// out[i] = 1 where something stops rays[i], else 0. The spans are equally long. Neighbours in the span
-  /// should be neighbours in the scene.
+  /// Whether shadows fall on a triangle: Instance::receives. `triangle`: below triangle_count().
+  [[nodiscard]] bool receives(std::uint32_t triangle) const noexcept;
+  /// out[i] = 1 where a caster (Instance::casts) stops rays[i], else 0. The spans are equally long.
+  /// Neighbours in the span should be neighbours in the scene.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> out) const;
   /// By our own hierarchy, in double, whichever the engine: what a ray meets first.
   [[nodiscard]] Hit first_hit(const Ray& ray) const noexcept;

@@ -8,6 +8,7 @@
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec2 texcoord;
+layout(location = 11) uniform float surface_alpha;  // of the albedo: pass/common/surface.glsl
 layout(location = 0) out vec4 position_out;
 layout(location = 1) out vec4 normal_out;
 layout(location = 2) out vec4 albedo_out;
@@ -30,6 +31,6 @@ void main() {
 
   position_out = vec4(position, dot(position, frame.forward.xyz));
   normal_out = vec4(octahedral_from_unit(geometric), octahedral_from_unit(shading));
-  albedo_out = vec4(color.rgb, 1.0);
+  albedo_out = vec4(color.rgb, surface_alpha);
   store_extra(geometric);
 }

@@ -51,7 +51,7 @@ void main() {
   for (int i = 0; i < samples; ++i) {
     uint index = first + uint(i);
     listed[index].next = 0u;
-    if (s.sky) continue;
+    if (!s.receives) continue;
     Surface at = s;
     if (samples > 1) {
       at.position = facet_point(s, i, samples);

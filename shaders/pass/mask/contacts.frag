@@ -40,7 +40,7 @@ void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy), size = textureSize(position_image, 0);
   Surface s = surface_at(pixel);
   vec3 light = light_at(frame.light_place, s.position);
-  if (s.sky || dot(s.normal, light) >= 0.0) discard;
+  if (!s.receives || dot(s.normal, light) >= 0.0) discard;
   int map = map_serving(s.position, s.depth, light, frame.selection.x, int(frame.light.w));
   if (map < 0) discard;
   float by_bias = bias_reach(shadow_map(map), s, light), reach = max(fall_off[map], by_bias);

@@ -4,5 +4,5 @@
 
 void main() {
   Surface s = surface_at(ivec2(gl_FragCoord.xy));
-  mask = s.sky ? vec2(1.0, -1.0) : mask_of(s);
+  mask = s.receives ? mask_of(s) : vec2(1.0, -1.0);
 }

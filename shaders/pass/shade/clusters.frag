@@ -26,7 +26,7 @@ void main() {
   for (uint i = range.x; i < range.y; ++i) {
     own_light = own_lights[cluster_light(i)];
     if (falloff_at(own_light.record, s) == 0.0) continue;
-    mask = mask_of(s);
+    if (s.receives) mask = mask_of(s);
     precise vec3 added = s.albedo * kSunColor * own_light.brightness.rgb * light_on(own_light.record, s, mask.x);
     sum += added;
   }

@@ -96,12 +96,19 @@ CasterCulling::CasterCulling(const SceneBuffers& scene)
       listed_(scene.boxes().size()),
       draws_(scene.boxes().size()),
       diagonal_(scene.boxes().size()) {
-  for (std::uint32_t i = 0; i < scene.boxes().size(); ++i) triangles_ += scene.triangles_of(i);
+  for (std::uint32_t i = 0; i < scene.boxes().size(); ++i) {
+    if (!scene.casts(i)) continue;
+    triangles_ += scene.triangles_of(i);
+    ++count_;
+  }
   rebuild();
 }
 
 void CasterCulling::rebuild() {
-  set_ = CasterSet(scene_.boxes(), blocks_, indices_);
+  boxes_.assign(scene_.boxes().begin(), scene_.boxes().end());
+  for (std::uint32_t i = 0; i < boxes_.size(); ++i)
+    if (!scene_.casts(i)) boxes_[i] = {};
+  set_ = CasterSet(boxes_, blocks_, indices_);
   for (std::size_t i = 0; i < diagonal_.size(); ++i)
     diagonal_[i] = glm::length(scene_.boxes()[i].max - scene_.boxes()[i].min);
 }
@@ -114,7 +121,7 @@ void CasterCulling::count_omissions(const ShadowPlan& plan, PruneSavings& saved)
     if (*rule == PruneRule::metric_resolution) continue;
     ++saved.of(*rule).maps;
     saved.of(*rule).triangles += triangles_;
-    saved.of(*rule).instances += draws_.size();
+    saved.of(*rule).instances += count_;
   }
 }
 
@@ -124,7 +131,7 @@ std::span<const std::uint32_t> CasterCulling::instances_within(std::span<const g
 
 void CasterCulling::mark_swept(const CullingJob& job, const ShadowMap& map, PruneSavings& saved) {
   if (!job.prune.has(PruneRule::swept_casters)) {
-    std::fill(draws_.begin(), draws_.end(), std::uint8_t{1});
+    for (std::uint32_t i = 0; i < draws_.size(); ++i) draws_[i] = scene_.casts(i) ? 1 : 0;
     return;
   }
   std::fill(draws_.begin(), draws_.end(), std::uint8_t{0});
@@ -132,7 +139,7 @@ void CasterCulling::mark_swept(const CullingJob& job, const ShadowMap& map, Prun
   const std::size_t plane_count = planes_of_what_is_read(job, map, planes);
   const std::span<const std::uint32_t> swept = instances_within(std::span(planes).first(plane_count));
   PruneSaving& saving = saved.of(PruneRule::swept_casters);
-  saving.instances += draws_.size() - swept.size();
+  saving.instances += count_ - swept.size();
   saving.triangles += triangles_;
   for (const std::uint32_t instance : swept) {
     draws_[instance] = 1;

@@ -83,7 +83,9 @@ class CasterCulling {
   std::vector<std::uint8_t> draws_;
   std::vector<double> diagonal_;  ///< of each instance's box
   CasterSet set_;
-  std::uint64_t triangles_ = 0;  ///< of all instances
+  std::vector<Box> boxes_;       ///< of casters, by instance; empty where one does not cast
+  std::uint64_t triangles_ = 0;  ///< of all casters
+  std::size_t count_ = 0;        ///< of casters
 };
 
 }  // namespace gnomon::render

@@ -61,6 +61,8 @@ SceneBuffers::SceneBuffers(const Scene& scene)
     primitive_of_.push_back(instance.primitive);
     boxes_.emplace_back();
     mirrored_[i] = instance.mirrored;
+    casts_.push_back(instance.casts);
+    receives_.push_back(instance.receives);
     move(i, instance);
   }
   upload_vertices(scene);
@@ -192,17 +194,18 @@ void SceneBuffers::make_batches() {
     const int index = primitive_of(i).material;
     const Material& material = materials_[static_cast<std::size_t>(index)];
     return std::tuple(material.alpha_mode != AlphaMode::opaque, index, static_cast<bool>(mirrored_[i]),
-                      primitive_of_[i], i);
+                      !receives_[i], primitive_of_[i], i);
   };
   std::iota(order_.begin(), order_.end(), 0u);
   std::sort(order_.begin(), order_.end(),
             [&key](std::uint32_t a, std::uint32_t b) { return key(a) < key(b); });
 
   for (std::uint32_t n = 0; n < order_.size(); ++n) {
-    const bool mirrored = mirrored_[order_[n]];
+    const bool mirrored = mirrored_[order_[n]], receives = receives_[order_[n]];
     const int index = primitive_of(order_[n]).material;
     const auto same_state = [&](std::uint32_t other) {
-      return primitive_of(order_[other]).material == index && mirrored_[order_[other]] == mirrored;
+      return primitive_of(order_[other]).material == index && mirrored_[order_[other]] == mirrored &&
+             receives_[order_[other]] == receives;
     };
     if (n > 0 && same_state(n - 1)) {
       batches_.back().end = n + 1;
@@ -213,6 +216,7 @@ void SceneBuffers::make_batches() {
                 .end = n + 1,
                 .double_sided = material.double_sided,
                 .mirrored = mirrored,
+                .receives = receives,
                 .base_color = material.base_color,
                 .texture = white_.name(),
                 .sampler = sampler_for(material),

@@ -18,7 +18,7 @@ namespace gnomon::render {
 /// Instances that one state of the pipeline draws: entries [begin, end) of SceneBuffers::order.
 struct Batch {
   std::uint32_t begin = 0, end = 0;
-  bool masked = false, double_sided = false, mirrored = false;
+  bool masked = false, double_sided = false, mirrored = false, receives = true;
   glm::vec4 base_color{1.0f};
   float alpha_cutoff = -1.0f;  ///< nothing is below it
   AlphaMode alpha_mode = AlphaMode::opaque;
@@ -62,6 +62,8 @@ class SceneBuffers {
   /// Parts of large casters, for maps: their runs are of this scene's index buffer.
   [[nodiscard]] CasterClusters& clusters() noexcept { return clusters_; }
   [[nodiscard]] std::span<const Box> boxes() const noexcept { return boxes_; }
+  /// Instance::casts.
+  [[nodiscard]] bool casts(std::uint32_t instance) const noexcept { return casts_[instance]; }
   [[nodiscard]] const Primitive& primitive_of(std::uint32_t instance) const noexcept {
     return primitives_[primitive_of_[instance]];
   }
@@ -102,7 +104,7 @@ class SceneBuffers {
   std::vector<Primitive> primitives_;
   CasterClusters clusters_;
   std::vector<Material> materials_;
-  std::vector<bool> mirrored_;  ///< by instance
+  std::vector<bool> mirrored_, casts_, receives_;  ///< by instance
   std::size_t vertex_count_ = 0;
   std::vector<std::uint32_t> primitive_of_;
   std::vector<glm::dvec3> translation_;

@@ -97,7 +97,8 @@ void PanePass::draw_pages(const PagePlan& plan, const PagePool& pool, const glm:
     map.width = map.height = look.side;
     const std::span<const Box> boxes = panes_.boxes();
     for (std::size_t i = 0; i < boxes.size(); ++i)
-      shown_[i] = !reached(map, origin_world, boxes.subspan(i, 1)).empty();
+      shown_[i] = panes_.casts(static_cast<std::uint32_t>(i)) &&
+                  !reached(map, origin_world, boxes.subspan(i, 1)).empty();
     clear(page.at);
     glUniformMatrix4fv(kClip, 1, GL_FALSE, &page.clip_from_position[0][0]);
     draw_all();

@@ -160,7 +160,8 @@ void PanePass::show_within(const glm::dvec4& light_world, double range) {
   shown_world_.clear();
   for (std::size_t i = 0; i < boxes.size(); ++i) {
     const Box& box = boxes[i];
-    shown_[i] = !bounded || (!box.empty() && glm::distance(glm::clamp(at, box.min, box.max), at) < range);
+    shown_[i] = panes_.casts(static_cast<std::uint32_t>(i)) &&
+                (!bounded || (!box.empty() && glm::distance(glm::clamp(at, box.min, box.max), at) < range));
     if (shown_[i] != 0) shown_world_.push_back(box);
   }
 }
@@ -334,7 +335,7 @@ void PanePass::draw_listed(const ShadowPlan& plan, const glm::dvec3& camera_worl
   constexpr GLuint kNothing = 0;
   glClearNamedBufferData(listed_->absorbed.name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &kNothing);
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kAbsorbedBinding, listed_->absorbed.name());
-  std::fill(shown_.begin(), shown_.end(), std::uint8_t{1});
+  for (std::uint32_t i = 0; i < shown_.size(); ++i) shown_[i] = panes_.casts(i);
   panes_.place(SceneBuffers::Placed::for_camera, camera_world);
   panes_.use(SceneBuffers::Placed::for_camera);
   glBindVertexArray(panes_.vertex_array());

@@ -15,6 +15,8 @@ namespace {
 // Bindings as the shaders state them.
 constexpr GLuint kFrameBinding = 0, kPositionUnit = 0, kNormalUnit = 1, kAlbedoUnit = 2, kNoiseUnit = 3,
                  kMaskUnit = 6;
+constexpr GLint kSurfaceLocation = 11;
+constexpr float kReceives = 1.0f, kAlwaysLit = 0.5f;  // as shaders/pass/common/surface.glsl reads them
 
 }  // namespace
 
@@ -63,6 +65,7 @@ void Screen::draw_surfaces(const SurfacePass& by) const noexcept {
     batch.double_sided ? glDisable(GL_CULL_FACE) : glEnable(GL_CULL_FACE);
     glFrontFace(batch.mirrored ? GL_CW : GL_CCW);
     bind_material(batch);
+    glUniform1f(kSurfaceLocation, batch.receives ? kReceives : kAlwaysLit);
     casters_.lists.draw(range.begin, range.end);
   }
   glDisable(GL_CULL_FACE);

@@ -306,8 +306,7 @@ Flight load_flight(const Options& options) {
         throw std::runtime_error(
             fmt::format("{}: {}", options.scene, no_animation_text(flight.scene.motion, options.animation)));
     }
-    flight.boxes.reserve(flight.scene.instances.size());
-    for (const Instance& instance : flight.scene.instances) flight.boxes.push_back(instance.bounds_world);
+    flight.boxes = ShadowBoxes(flight.scene);
     return flight;
   } catch (const SceneError& error) {
     throw std::runtime_error(error.what());
@@ -319,7 +318,8 @@ void pose_flight(const Options& options, Flight& flight, double seconds, render:
   const Animation& animation = flight.scene.motion.animations[static_cast<std::size_t>(flight.animation)];
   const double time_s = looped_time(animation, options.animation_start + seconds);
   (void)pose(flight.scene, flight.animation, time_s, flight.pose);
-  for (const PosedInstance& posed : flight.pose.instances) flight.boxes[posed.instance] = posed.bounds_world;
+  for (const PosedInstance& posed : flight.pose.instances)
+    flight.boxes.place(posed.instance, posed.bounds_world);
   if (renderer != nullptr && !renderer->apply_pose(flight.pose))
     throw std::runtime_error(fmt::format("{}: the animation's pose does not fit the scene", options.scene));
 }

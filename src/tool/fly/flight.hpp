@@ -8,6 +8,7 @@
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "gnomon/scene/scene.hpp"
+#include "gnomon/scene/shadow_boxes.hpp"
 #include "options.hpp"
 
 namespace gnomon::tool::fly {
@@ -16,10 +17,10 @@ namespace gnomon::tool::fly {
 struct Flight {
   Scene scene;
   CameraPath path;
-  std::vector<Box> boxes;     ///< of the instances, as posed: they cast and receive
+  ShadowBoxes boxes;          ///< of the instances, as posed
   int animation = kRestPose;  ///< that the flight plays
   Pose pose;                  ///< of the frame at hand
-  [[nodiscard]] SceneBounds bounds() const noexcept { return {boxes, boxes}; }
+  [[nodiscard]] SceneBounds bounds() const noexcept { return boxes.bounds(); }
 };
 
 /// Loads scene and path. Throws std::runtime_error with what is wrong and where.

@@ -9,7 +9,7 @@
 
 namespace gnomon::tool::view {
 
-PosedScene::PosedScene(std::shared_ptr<const Scene> scene, std::vector<Box> boxes)
+PosedScene::PosedScene(std::shared_ptr<const Scene> scene, ShadowBoxes boxes)
     : scene_(std::move(scene)), boxes_(std::move(boxes)) {
   begin_tracer();
 }
@@ -27,7 +27,7 @@ std::string PosedScene::follow(const Playing& playing, render::Renderer& rendere
   if (animation == animation_ && time_s == time_s_) return {};
   (void)pose(*scene_, animation, time_s, pose_);
   if (!renderer.apply_pose(pose_)) return "the animation's pose does not fit the scene";
-  for (const PosedInstance& posed : pose_.instances) boxes_[posed.instance] = posed.bounds_world;
+  for (const PosedInstance& posed : pose_.instances) boxes_.place(posed.instance, posed.bounds_world);
   animation_ = animation;
   time_s_ = time_s;
   tracer_.reset();

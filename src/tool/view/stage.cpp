@@ -104,7 +104,7 @@ std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_t
     loaded->panes = std::move(parts.panes);
   }
   for (const Scene* part : {&loaded->scene, &loaded->panes})
-    for (const Instance& instance : part->instances) loaded->boxes.push_back(instance.bounds_world);
+    for (const Instance& instance : part->instances) loaded->boxes.add(instance);
   return loaded;
 }
 
@@ -162,7 +162,7 @@ double Stage::time_frame(const State& state, Timed what) {
     frame.linear_depth = false;
     frame.map_passes = render::MapPasses::automatic;
     const auto begin = Clock::now();
-    const ShadowPlan plan = make_plan(camera_, light_, {posed_.boxes(), posed_.boxes()}, options);
+    const ShadowPlan plan = make_plan(camera_, light_, posed_.bounds(), options);
     plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     stats = renderer_.draw(plan, camera_, renderer_.prepare(render::filters::hard), frame);
   } else if (sides_[0].pages) {
@@ -175,7 +175,7 @@ double Stage::time_frame(const State& state, Timed what) {
 
 std::string Stage::plan_side(const Settings& settings, const Camera& planned, const Light& light,
                              std::shared_ptr<const VisibleSurfaces>& surfaces, Side& side) {
-  const SceneBounds bounds{posed_.boxes(), posed_.boxes()};
+  const SceneBounds bounds = posed_.bounds();
   const PlanOptions options = plan_options_of(settings);
   side.pages.reset();
   side.plan_camera = planned;

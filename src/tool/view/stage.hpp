@@ -29,7 +29,7 @@ struct Loaded {
   Scene panes;
   bool parted = false;
   CameraPath path;
-  std::vector<Box> boxes;  ///< of the instances at rest, and of panes behind them
+  ShadowBoxes boxes;  ///< of the instances at rest, and of panes behind them
 };
 /// `panes`: parts them from the scene, which then has no animations. Throws SceneError.
 [[nodiscard]] std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles,

@@ -1,0 +1,165 @@
+// Objects that cast no shadow, and objects that none falls on, by every source of shadows and by rays.
+#include <gtest/gtest.h>
+
+#include "gnomon/scene/shadow_boxes.hpp"
+#include "gnomon/trace/reference.hpp"
+#include "mask_frame.hpp"
+#include "shared_context.hpp"
+
+namespace gnomon::render {
+namespace {
+
+class Casting : public testing::Test {
+ protected:
+  void SetUp() override { (void)shared_context(); }
+};
+
+constexpr std::size_t kGround = 0, kBox = 1, kBoard = 2;
+
+/// A ground, a box on it, and a board over both that shadows much of them.
+Scene board_over_box() {
+  Scene scene = box_on_ground();
+  add_box(scene, {-3.0f, 4.0f, -2.5f}, {1.5f, 4.2f, 2.0f});
+  return scene;
+}
+
+FrameOptions mask_only() {
+  FrameOptions options;
+  options.aliasing = options.heat_map = options.cascade_tint = options.time_passes = false;
+  return options;
+}
+
+PlanOptions plan_options() {
+  PlanOptions options;
+  options.resolution.max_size = 512;
+  options.cascades = 2;
+  set_margin(default_settings(filters::hard), options);
+  return options;
+}
+
+ShadowPlan plan_of(const Scene& scene, const Camera& camera) {
+  const ShadowBoxes boxes(scene);
+  return make_plan(camera, DirectionalLight{kSlant}, boxes.bounds(), plan_options());
+}
+
+/// Pixels where a mask is not what rays find, and those that rays find lit and in shadow.
+struct Judged {
+  int wrong = 0, lit = 0, shadow = 0;
+};
+Judged judged(const Scene& scene, const Frame& frame) {
+  const trace::Tracer tracer(scene);
+  const Light light = DirectionalLight{kSlant};
+  const trace::SurfacePoints points =
+      trace::surface_points(tracer, frame.camera, light, frame.positions, frame.normals);
+  const trace::HardReference truth = trace::hard_reference(tracer, points, light);
+  Judged result;
+  for (std::size_t i = 0; i < frame.pixels(); ++i) {
+    const bool lit = truth.pixels[i] == trace::Verdict::lit,
+               shadow = truth.pixels[i] == trace::Verdict::shadow;
+    result.lit += lit;
+    result.shadow += shadow;
+    result.wrong += (lit && frame.lit(i) != 1.0f) || (shadow && frame.lit(i) != 0.0f);
+  }
+  return result;
+}
+
+TEST_F(Casting, boxes_of_a_scene_are_both_unless_it_says_otherwise) {
+  Scene scene = board_over_box();
+  const ShadowBoxes both(scene);
+  EXPECT_EQ(both.bounds().casters.size(), 3u);
+  scene.instances[kBoard].casts = false;
+  scene.instances[kGround].receives = false;
+  ShadowBoxes boxes(scene);
+  boxes.place(kBoard, {{0, 0, 0}, {1, 1, 1}});
+  boxes.place(kBox, {{0, 0, 0}, {2, 2, 2}});
+  EXPECT_EQ(boxes.all()[kBoard].max.x, 1.0);
+  const ShadowPlan plan = plan_of(scene, camera_on_box(kSize, kSize));
+  EXPECT_EQ(plan.status, PlanStatus::ok);
+}
+
+TEST_F(Casting, maps_hold_to_the_bit_what_they_hold_without_the_objects_that_do_not_cast) {
+  Scene scene = board_over_box(), without = box_on_ground();
+  scene.instances[kBoard].casts = false;
+  const Camera camera = camera_on_box(kSize, kSize);
+  // By hand: no caster is the board, which receives.
+  const std::vector<Box> receivers = boxes_of(scene), casters = boxes_of(without);
+  const ShadowPlan plan = make_plan(camera, DirectionalLight{kSlant}, {casters, receivers}, plan_options());
+  ASSERT_GT(plan.map_count, 0);
+  const ShadowPlan by_flag = plan_of(scene, camera);
+  ASSERT_EQ(by_flag.map_count, plan.map_count);
+  for (const PruneRules prune : {exact_prune_rules(), kPruneNothing}) {
+    Renderer flagged(scene), by_hand(without);
+    FrameOptions options = mask_only();
+    options.prune = prune;
+    flagged.draw(by_flag, camera, flagged.prepare(filters::hard), options);
+    by_hand.draw(plan, camera, by_hand.prepare(filters::hard), options);
+    std::size_t drawn = 0;
+    for (int map = 0; map < plan.map_count; ++map) {
+      const FloatImage depths = flagged.depth_map(map);
+      EXPECT_EQ(depths.values, by_hand.depth_map(map).values) << map;
+      for (const float depth : depths.values) drawn += depth < 1.0f;
+    }
+    EXPECT_GT(drawn, 1000u);
+  }
+}
+
+TEST_F(Casting, every_source_of_shadows_agrees_with_rays) {
+  const Camera camera = camera_on_box(kSize, kSize);
+  for (const bool casts : {true, false})
+    for (const bool receives : {true, false}) {
+      Scene scene = board_over_box();
+      scene.instances[kBoard].casts = casts;
+      scene.instances[kGround].receives = receives;
+      const ShadowPlan plan = plan_of(scene, camera);
+      for (const Source& source : {Source::maps, Source::irregular()}) {
+        SCOPED_TRACE(std::string(casts ? "casts" : "") + (receives ? " receives" : "") +
+                     (source == Source::maps ? " maps" : " lists"));
+        Renderer renderer(scene);
+        renderer.draw(plan, camera, renderer.prepare(filters::hard, source), mask_only());
+        const Frame frame{camera, plan, renderer.mask(), renderer.positions(), renderer.normals()};
+        const Judged found = judged(scene, frame);
+        EXPECT_GT(found.lit, 5000);
+        EXPECT_EQ(found.shadow > 200, casts || receives);
+        EXPECT_LE(found.wrong, source == Source::maps ? found.lit / 50 : 0);
+      }
+    }
+}
+
+TEST_F(Casting, no_ray_of_a_soft_reference_stops_at_what_does_not_cast) {
+  Scene scene = board_over_box(), without = box_on_ground();
+  scene.instances[kBoard].casts = false;
+  scene.instances[kBox].receives = false;
+  const Camera camera = camera_on_box(kSize, kSize);
+  const Frame frame = draw_scene(scene, camera, kSlant);
+  const Light light = DirectionalLight{kSlant};
+  for (const trace::Engine engine : {trace::Engine::own, trace::Engine::automatic}) {
+    const trace::Tracer tracer(scene, engine), other(without, engine);
+    const trace::SurfacePoints points =
+        trace::surface_points(tracer, camera, light, frame.positions, frame.normals);
+    trace::SurfacePoints ground = points;
+    int on_ground = 0, on_box = 0;
+    for (trace::SurfacePoint& point : ground.pixels) {
+      const bool is_ground = point.state == trace::PixelState::facing && std::abs(point.position.y) < 1e-3;
+      if (!is_ground) point = {};
+      on_ground += is_ground;
+    }
+    const trace::SoftReference with_flag = trace::area_reference(tracer, ground, light, 0.05),
+                               by_hand = trace::area_reference(other, ground, light, 0.05),
+                               all = trace::area_reference(tracer, points, light, 0.05);
+    const trace::PixelReference pixels = trace::pixel_reference(tracer, camera, points, light);
+    for (std::size_t i = 0; i < points.pixels.size(); ++i) {
+      EXPECT_EQ(with_flag.pixels[i], by_hand.pixels[i]);
+      if (points.pixels[i].receives || points.pixels[i].state != trace::PixelState::facing) continue;
+      ++on_box;
+      EXPECT_EQ(all.pixels[i], 1.0f);
+      if (pixels.several[i] == 0) {
+        EXPECT_EQ(pixels.pixels[i], 1.0f);
+      }
+    }
+    EXPECT_GT(on_ground, 1000);
+    EXPECT_GT(on_box, 100);
+  }
+}
+
+}  // namespace
+}  // namespace gnomon::render
