@@ -165,8 +165,9 @@ Around around(const Scene& scene, const Piece& piece, const glm::dvec3& from) {
 }
 
 bool is_level(const Piece& piece) noexcept {
-  constexpr double kFlat = 0.03;  // height, of its extent
-  return piece.bounds.max.y - piece.bounds.min.y < kFlat * piece.extent();
+  constexpr double kFlat = 0.03;  // height, of its sides: a long low wall is none
+  const glm::dvec3 size = piece.bounds.max - piece.bounds.min;
+  return size.y < kFlat * std::sqrt(size.x * size.z);
 }
 
 double weight_of(const Piece& piece) noexcept {
@@ -252,10 +253,11 @@ void drop_backdrops(const Scene& scene, std::vector<Piece>& pieces, std::vector<
 }
 
 // Adds those level pieces that do not reach far beyond the rest: together, where they lie at its foot.
-bool add_levels(std::vector<Piece>& levels, std::vector<Piece>& pieces) {
+void add_levels(std::vector<Piece>& levels, ViewSubject& subject) {
   constexpr double kFoot = 0.2;                  // of the rest's height
   constexpr double kGround = 1.15, kRoof = 1.6;  // times the extent of the rest
-  const Box rest = box_of(pieces);
+  constexpr double kUnder = 0.9;                 // of the rest's sides, that a ground has at least
+  const Box rest = box_of(subject.pieces);
   const auto grows = [&rest](Box box) {
     box.extend(rest);
     return extent_of(box) / extent_of(rest);
@@ -263,16 +265,19 @@ bool add_levels(std::vector<Piece>& levels, std::vector<Piece>& pieces) {
   const double foot = rest.min.y + kFoot * (rest.max.y - rest.min.y);
   Box ground;
   for (const Piece& level : levels)
-    if (level.bounds.max.y <= foot) ground.extend(level.bounds);
-  bool all = true;
+    if (level.bounds.min.y <= foot) ground.extend(level.bounds);
+  const glm::dvec3 of_ground = ground.max - ground.min, of_rest = rest.max - rest.min;
+  subject.grounded =
+      !ground.empty() && of_ground.x >= kUnder * of_rest.x && of_ground.z >= kUnder * of_rest.z;
   for (Piece& level : levels) {
-    const bool joins = level.bounds.max.y <= foot ? grows(ground) <= kGround : grows(level.bounds) <= kRoof;
+    const bool joins = level.bounds.min.y <= foot ? grows(ground) <= kGround : grows(level.bounds) <= kRoof;
+    if (!joins) subject.all = false;
+    const bool hides = level.bounds.min.y <= foot && level.bounds.max.y > level.bounds.min.y;
     if (joins)
-      pieces.push_back(std::move(level));
-    else
-      all = false;
+      subject.pieces.push_back(std::move(level));
+    else if (hides)
+      subject.lands.push_back(std::move(level));
   }
-  return all;
 }
 
 }  // namespace
@@ -307,7 +312,7 @@ ViewSubject view_subject(const Scene& scene) {
     drop_far_ones(scene, subject.pieces);
     drop_backdrops(scene, subject.pieces, subject.lands);
     subject.all = subject.pieces.size() == standing;
-    subject.all = add_levels(levels, subject.pieces) && subject.all;
+    add_levels(levels, subject);
   } else {
     for (Piece& level : levels) subject.pieces.push_back(std::move(level));
   }

@@ -31,6 +31,7 @@ struct ViewSubject {
   std::vector<Piece> pieces;  ///< what the scene is about; empty where no instance has a triangle
   std::vector<Piece> lands;   ///< uneven grounds that are not looked at, and that may hide the rest
   Box bounds;                 ///< of `pieces`
+  bool grounded = false;      ///< level pieces at the foot are at least as wide as the rest
   bool all = true;            ///< nothing was omitted
 };
 

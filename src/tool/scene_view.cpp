@@ -1,6 +1,7 @@
 // A scene with the boxes, the light and the cameras that it is planned for.
 #include "scene_view.hpp"
 
+#include "edit_words.hpp"
 #include "gnomon/scene/caster_work.hpp"
 
 namespace gnomon::tool {
@@ -15,8 +16,8 @@ double time_of(int frame, int frames) noexcept {
 }  // namespace
 
 SceneView::SceneView(const std::string& scene, const LightPlacement& light, const CameraWords& camera,
-                     const LoadLimits& limits)
-    : scene_(load_scene(scene, limits)),
+                     const LoadLimits& limits, const SceneEdits& edits)
+    : scene_(load_edited(scene, limits, edits)),
       path_(camera_path(camera, scene_)),
       work_(caster_work(scene_)),
       boxes_(scene_),

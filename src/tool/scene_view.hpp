@@ -8,6 +8,7 @@
 #include "gnomon/plan.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/edit.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "gnomon/scene/scene.hpp"
@@ -20,7 +21,7 @@ class SceneView {
  public:
   /// Throws SceneError, and std::runtime_error where the camera's words do not go together.
   SceneView(const std::string& scene, const LightPlacement& light, const CameraWords& camera = {},
-            const LoadLimits& limits = {});
+            const LoadLimits& limits = {}, const SceneEdits& edits = {});
 
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] const Light& light() const noexcept { return light_; }

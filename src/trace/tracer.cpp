@@ -53,6 +53,10 @@ std::size_t Tracer::triangle_count() const noexcept {
   return impl_->triangles.corners.size();
 }
 
+std::uint32_t Tracer::instance_of(std::uint32_t triangle) const noexcept {
+  return impl_->triangles.instance_of[triangle];
+}
+
 bool Tracer::receives(std::uint32_t triangle) const noexcept {
   return impl_->triangles.receives[triangle];
 }

@@ -74,6 +74,7 @@ WorldTriangles::WorldTriangles(const Scene& scene) {
       const std::int8_t side = scene.materials[material].double_sided ? 0 : mirrored ? -1 : 1;
       for (std::uint32_t i = 0; i + 2 < primitive.index_count; i += 3) {
         shown_side.push_back(side);
+        instance_of.push_back(static_cast<std::uint32_t>(&instance - scene.instances.data()));
         casts.push_back(instance.casts);
         receives.push_back(instance.receives);
         std::array<glm::vec2, 3> uv;

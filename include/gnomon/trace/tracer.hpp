@@ -64,6 +64,8 @@ class Tracer {
   /// Triangles of all instances.
   [[nodiscard]] std::size_t triangle_count() const noexcept;
 
+  /// Index into Scene::instances. `triangle`: below triangle_count().
+  [[nodiscard]] std::uint32_t instance_of(std::uint32_t triangle) const noexcept;
   /// Whether shadows fall on a triangle: Instance::receives. `triangle`: below triangle_count().
   [[nodiscard]] bool receives(std::uint32_t triangle) const noexcept;
   /// out[i] = 1 where a caster (Instance::casts) stops rays[i], else 0. The spans are equally long.

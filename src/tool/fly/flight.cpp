@@ -13,6 +13,7 @@
 
 #include "animation_words.hpp"
 #include "command.hpp"
+#include "edit_words.hpp"
 #include "float_channel.hpp"
 #include "frame_plan.hpp"
 #include "gnomon/render/filter.hpp"
@@ -297,7 +298,7 @@ void print_json(const Options& options, const Flight& flight, const render::Cont
 Flight load_flight(const Options& options) {
   try {
     Flight flight;
-    flight.scene = load_scene(options.scene, limits_of_triangles(options.max_triangles));
+    flight.scene = load_edited(options.scene, limits_of_triangles(options.max_triangles), options.edits);
     for (const std::string& warning : flight.scene.warnings) warn(warning);
     flight.path = camera_path(options.camera, flight.scene, 1.0 * options.width / options.height);
     if (!options.animation.empty()) {
@@ -389,9 +390,10 @@ std::string sheet_title(const Options& options) {
 void print_scene(const Options& options, const Flight& flight, const render::ContextInfo& context) {
   constexpr double kMebi = 1024.0 * 1024.0;
   fmt::print("context:  {}\n", context.description());
-  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB\n", scene_title(options.scene),
+  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB{}\n", scene_title(options.scene),
              flight.scene.instances.size(), flight.scene.triangle_count(),
-             static_cast<double>(flight.scene.bytes()) / kMebi);
+             static_cast<double>(flight.scene.bytes()) / kMebi,
+             has_ground(flight.scene) ? "" : "; no ground under it: --ground adds one");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "command.hpp"
+#include "edit_words.hpp"
 #include "filter_words.hpp"
 #include "gnomon/render/perceptual.hpp"
 #include "gnomon/scene/load.hpp"
@@ -223,11 +224,14 @@ std::vector<Option> map_options(Request& request) {
 std::vector<Option> budget_options(Request& request) {
   Options& options = request.options;
   const std::vector<std::string> resolutions{"given", "perceptual"};
+  const std::vector<Option> scene_edits = edit_options(options.edits);
   return {{.name = "--map-memory-mib",
            .target = &options.map_memory_mib,
            .help = "memory for all maps, MiB; larger maps are halved until they fit; 0: no limit",
            .range = {{0.0, 1e9}}},
           max_triangles_option(options.max_triangles),
+          scene_edits[0],
+          scene_edits[1],
           {.name = "--resolution",
            .target = enum_word(options.perceptual_resolution, resolutions),
            .help = "given: by --map-size; perceptual: the smallest maps whose texels the filter hides",

@@ -12,6 +12,7 @@
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/edit.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/study/technique.hpp"
 #include "page_setting.hpp"
@@ -68,6 +69,7 @@ struct Options {
   double map_memory_mib = 0.0;
   /// Scenes of more triangles, over all instances, are refused before they take the machine's memory.
   std::uint64_t max_triangles = LoadLimits{}.triangles;
+  SceneEdits edits;
   std::vector<const Warp*> compared_warps;  ///< nullptr: chosen by the plan; none: no comparison
 };
 

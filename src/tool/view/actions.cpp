@@ -54,7 +54,8 @@ void show_message(Display& display, const std::string& text, bool error) {
 void open_scene(App& app, const std::string& scene) {
   Loading& loading = app.drawing.loading;
   if (loading.scene.valid()) return show_message(app.display, "still loading " + loading.name, true);
-  loading = {std::async(std::launch::async, load, scene, app.options.max_triangles, app.document.state.panes),
+  const State& state = app.document.state;
+  loading = {std::async(std::launch::async, load, scene, app.options.max_triangles, state.panes, state.edits),
              scene, ImGui::GetTime()};
 }
 
@@ -62,9 +63,10 @@ void set_state(App& app, const State& state) {
   Stage* const stage = app.drawing.stage.get();
   const std::string scene = stage != nullptr ? stage->loaded().name : app.document.state.scene;
   const bool panes = stage != nullptr ? stage->loaded().parted : app.document.state.panes;
+  const SceneEdits edits = stage != nullptr ? stage->loaded().edits : app.document.state.edits;
   app.document.state = state;
   if (stage != nullptr) stage->cut();
-  if (state.scene != scene || state.panes != panes) open_scene(app, state.scene);
+  if (state.scene != scene || state.panes != panes || state.edits != edits) open_scene(app, state.scene);
 }
 
 void open_file(App& app, const std::string& file) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "edit_words.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "picture_words.hpp"
 #include "plan_option.hpp"
@@ -73,6 +74,8 @@ void add_settings(const Settings& settings, std::string& text) {
 std::string command_text(const State& state) {
   std::string text = "gnomon view " + quoted(state.scene);
   if (state.panes) text += " --panes";
+  if (state.edits.ground) text += " --ground";
+  if (!state.edits.sections.empty()) text += " --section=" + section_text(state.edits.sections);
   add_settings(state.a, text);
   const LightState& light = state.light;
   const LightPlacement none;

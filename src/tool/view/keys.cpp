@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "app.hpp"
+#include "framing.hpp"
 #include "steering.hpp"
 
 namespace gnomon::tool::view {
@@ -38,6 +39,7 @@ constexpr KeyHelp kKeys[] = {
     {"P, O", "fly along the path, turn the sun"},
     {"Space", "play the scene's animation, or pause it"},
     {"K", "record the camera's way as the path, into a file; K ends it"},
+    {"C", "come to what lies under the cursor, until it fills the picture"},
     {"R, Home", "camera of the path"},
     {"Ctrl+C", "copy the command with this picture"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo"},
@@ -126,6 +128,33 @@ void hang_light(LightState& light, const Probed& probed, const Box& bounds) {
   }
 }
 
+/// Where the cursor is within the picture, pixels; nothing where it is off it, or over the panel.
+std::optional<glm::dvec2> cursor_in(const Drawing& drawing, const Display& display) {
+  const ImGuiIO& io = ImGui::GetIO();
+  const Area& area = drawing.area;
+  const double x = static_cast<double>(io.MousePos.x) * display.pixel_ratio - area.x,
+               y = static_cast<double>(io.MousePos.y) * display.pixel_ratio - area.y;
+  if (io.WantCaptureMouse || !(x >= 0.0 && y >= 0.0 && x < area.width && y < area.height))
+    return std::nullopt;
+  return glm::dvec2(x, y);
+}
+
+void frame_under_cursor(App& app) {
+  Stage* const stage = app.drawing.stage.get();
+  const std::optional<glm::dvec2> cursor = cursor_in(app.drawing, app.display);
+  if (stage == nullptr || !cursor || app.document.state.view == View::map) return;
+  if (stage->tracer() == nullptr) {
+    stage->want_tracer();
+    return show_message(app.display, "sorting triangles for exact rays: press C again", false);
+  }
+  const Camera& camera = stage->camera();
+  const Probed probed = probe(*stage->tracer(), stage->side(0).drawn, camera, stage->light(), cursor->x,
+                              cursor->y, stage->side(0).page_plan());
+  if (!probed.hit) return show_message(app.display, "nothing lies under the cursor", false);
+  const double slope = std::min(camera.right - camera.left, camera.top - camera.bottom) * 0.5;
+  frame(own_eye(app.document.state, *stage), stage->boxes()[probed.instance], probed.point, std::atan(slope));
+}
+
 void control_keys(App& app, const Presses& pressed) {
   constexpr bool kControl = true;
   if (pressed(GLFW_KEY_Q, kControl)) glfwSetWindowShouldClose(app.window, GLFW_TRUE);
@@ -168,6 +197,7 @@ void setting_keys(App& app, const Presses& pressed) {
     state.motion.camera = !state.motion.camera;
     if (state.motion.camera) state.eye.reset();
   }
+  if (pressed(GLFW_KEY_C)) frame_under_cursor(app);
   if (pressed(GLFW_KEY_R) || pressed(GLFW_KEY_HOME)) state.eye.reset();
 }
 
@@ -243,9 +273,10 @@ void mouse(State& state, const Drawing& drawing, Display& display) {
   const Stage& stage = *drawing.stage;
   const Area& area = drawing.area;
   Mouse& button = display.mouse;
+  const std::optional<glm::dvec2> cursor = cursor_in(drawing, display);
+  const bool over = cursor.has_value();
   const double x = static_cast<double>(io.MousePos.x) * display.pixel_ratio - area.x,
                y = static_cast<double>(io.MousePos.y) * display.pixel_ratio - area.y;
-  const bool over = !io.WantCaptureMouse && x >= 0.0 && y >= 0.0 && x < area.width && y < area.height;
   constexpr double kNear = 8.0;  // pixels from the line that the button still takes hold of
   if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
     button.wiping = state.comparison == Comparison::wipe && std::abs(x - state.wipe * area.width) < kNear;

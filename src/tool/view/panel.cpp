@@ -415,6 +415,10 @@ void scene_part(App& app) {
       if (ImGui::Selectable(scene.c_str())) open_scene(app, scene);
     ImGui::EndCombo();
   }
+  State edited = app.document.state;
+  if (ImGui::Checkbox("ground under it", &edited.edits.ground)) set_state(app, edited);
+  if (app.drawing.stage != nullptr && !app.drawing.stage->loaded().grounded)
+    ImGui::TextWrapped("Nothing lies under this scene that its shadow could fall on.");
   ImGui::TextWrapped("Or drop a .gltf, .glb, state file or folder of results on the window.");
 }
 
@@ -434,6 +438,7 @@ void file_tab(App& app) {
   if (ImGui::Button("reset all")) {
     State state;
     state.scene = app.document.state.scene;
+    state.edits = app.document.state.edits;
     app.document.state = state;
   }
   ImGui::Separator();

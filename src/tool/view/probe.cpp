@@ -68,6 +68,7 @@ Probed probe(const trace::Tracer& tracer, const ShadowPlan& plan, const Camera& 
   if (hit.triangle == trace::kNoTriangle) return result;
   result.hit = true;
   result.view_depth = hit.t;
+  result.instance = tracer.instance_of(hit.triangle);
   result.point = eye.origin + eye.direction * hit.t;
   result.normal = glm::dot(hit.normal, eye.direction) > 0.0 ? -hit.normal : hit.normal;
   const trace::Ray sun =

@@ -17,12 +17,13 @@ struct Probed {
   bool hit = false;  ///< false: the sky, and the rest is unset
   glm::dvec3 point{0.0}, normal{0.0};
   double view_depth = 0.0;
-  int map = -1;              ///< map or page that serves the point; -1: none
-  std::optional<Page> page;  ///< that it is, where pages serve
-  PointAliasing aliasing;    ///< in it
-  glm::dvec2 texel{0.0};     ///< of that map, or of the page's level
-  bool shadow = false;       ///< by an exact ray
-  bool turned_away = false;  ///< from the light: dark without any map
+  std::uint32_t instance = 0;  ///< of the scene, that the point lies on
+  int map = -1;                ///< map or page that serves the point; -1: none
+  std::optional<Page> page;    ///< that it is, where pages serve
+  PointAliasing aliasing;      ///< in it
+  glm::dvec2 texel{0.0};       ///< of that map, or of the page's level
+  bool shadow = false;         ///< by an exact ray
+  bool turned_away = false;    ///< from the light: dark without any map
   std::vector<WorldLine>
       footprint;  ///< the texel's outline on the surface's plane; empty where there is none
 };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <thread>
 
+#include "edit_words.hpp"
 #include "float_channel.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "gnomon/render/context.hpp"
@@ -91,10 +92,13 @@ int Side::picture_count() const noexcept {
   return pages ? static_cast<int>(pages->plan().levels.size()) : plan.map_count;
 }
 
-std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles, bool panes) {
+std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles, bool panes,
+                                   const SceneEdits& edits) {
   auto loaded = std::make_shared<Loaded>();
   loaded->name = scene;
-  loaded->scene = load_scene(scene, limits_of_triangles(max_triangles));
+  loaded->scene = load_edited(scene, limits_of_triangles(max_triangles), edits);
+  loaded->edits = edits;
+  loaded->grounded = has_ground(loaded->scene);
   constexpr double kUsualAspect = 16.0 / 9.0;
   loaded->path = default_path(loaded->scene, kUsualAspect);
   loaded->parted = panes;

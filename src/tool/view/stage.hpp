@@ -28,12 +28,14 @@ struct Loaded {
   Scene scene;       ///< where `parted` without its panes
   Scene panes;
   bool parted = false;
+  SceneEdits edits;      ///< that `scene` has had
+  bool grounded = true;  ///< has_ground()
   CameraPath path;
   ShadowBoxes boxes;  ///< of the instances at rest, and of panes behind them
 };
-/// `panes`: parts them from the scene, which then has no animations. Throws SceneError.
+/// `edits`: made first. `panes`: parts them from the scene, which then has no animations. Throws SceneError.
 [[nodiscard]] std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles,
-                                                 bool panes = false);
+                                                 bool panes = false, const SceneEdits& edits = {});
 
 /// One side of a comparison, as it was drawn last.
 struct Side {
@@ -100,6 +102,8 @@ class Stage {
   /// Begins to sort the triangles where they stand now: worth it once they rest.
   void want_tracer() { posed_.begin_tracer(); }
   /// nullptr until the triangles are sorted, as they stand now.
+  /// Of each instance as posed.
+  [[nodiscard]] const std::vector<Box>& boxes() const noexcept { return posed_.boxes(); }
   [[nodiscard]] const trace::Tracer* tracer() const noexcept { return posed_.tracer().get(); }
   /// Compiles one more of the filters that no state has used yet, for maps or for pages; false where all are
   /// compiled.

@@ -15,6 +15,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/camera_path.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/edit.hpp"
 #include "gnomon/scene/scene.hpp"
 #include "page_setting.hpp"
 
@@ -104,6 +105,7 @@ inline constexpr std::size_t kMaxPathKeys = 1024;
 struct State {
   std::string scene = "builtin:city";
   bool panes = false;            ///< translucent surfaces tint light in place of stopping it
+  SceneEdits edits;              ///< of the scene, as it is loaded
   std::optional<CameraKey> eye;  ///< none: the path at `path_time`
   std::vector<CameraKey> path;   ///< recorded; empty: the scene's path
   double path_time = 0.5;        ///< 0..1

@@ -221,6 +221,25 @@ std::vector<CameraKey> read_keys(Reader& from, const char* key) {
   return keys;
 }
 
+std::vector<SectionPlane> read_sections(Reader& from, const char* key) {
+  constexpr double kMost = 1e30;
+  std::vector<SectionPlane> planes;
+  const Json* json = from.take(key);
+  if (json == nullptr) return planes;
+  if (!json->is_array() || json->size() > kMaxSections)
+    from.refuse(key, fmt::format("needs a list of at most {} planes", kMaxSections));
+  for (const Json& plane : *json) {
+    const bool numbers =
+        plane.is_array() && plane.size() == 4 && std::all_of(plane.begin(), plane.end(), [](const Json& v) {
+          return v.is_number() && std::abs(v.get<double>()) <= kMost;
+        });
+    if (!numbers) from.refuse(key, "needs planes of four numbers");
+    planes.push_back(
+        {{plane[0].get<double>(), plane[1].get<double>(), plane[2].get<double>()}, plane[3].get<double>()});
+  }
+  return planes;
+}
+
 std::optional<render::IdentifierTest> read_identifiers(Reader& reader) {
   std::size_t of = 0;  // off
   reader.read_name("identifiers", of, identifier_names());
@@ -367,6 +386,9 @@ void check_brackets(std::string_view text) {
 std::string state_text(const State& state) {
   Json json{{kVersionKey, kVersion}, {"scene", state.scene}, {"path_time", state.path_time}};
   if (state.panes) json["panes"] = true;
+  if (state.edits.ground) json["ground"] = true;
+  for (const SectionPlane& plane : state.edits.sections)
+    json["section"].push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.distance});
   if (state.eye) json["eye"] = key_json(*state.eye);
   if (state.frozen) json["frozen"] = key_json(*state.frozen);
   if (state.frozen && state.frozen_sight.near_depth > 0.0) {
@@ -420,6 +442,8 @@ State read_state(std::string_view text) {
   State state;
   reader.read("scene", state.scene);
   reader.read("panes", state.panes);
+  reader.read("ground", state.edits.ground);
+  state.edits.sections = read_sections(reader, "section");
   reader.read("path_time", state.path_time, 0.0, 1.0);
   state.eye = read_key(reader, "eye");
   state.frozen = read_key(reader, "frozen");

@@ -8,6 +8,7 @@
 
 #include "camera_words.hpp"
 #include "command.hpp"
+#include "edit_words.hpp"
 #include "filter_words.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "gnomon/scene/camera_path.hpp"
@@ -298,8 +299,8 @@ std::vector<Option> setting_options(Request& request) {
        .target = enum_word(state.view, views),
        .help = "what the picture shows: " + any_of_text(views),
        .names = views}};
-  const std::vector<Option> of_camera = camera_options(request.camera);
-  for (const auto* part : {&of_pages, &of_picture, &of_light, &of_camera, &others})
+  const std::vector<Option> of_camera = camera_options(request.camera), of_scene = edit_options(state.edits);
+  for (const auto* part : {&of_scene, &of_pages, &of_picture, &of_light, &of_camera, &others})
     options.insert(options.end(), part->begin(), part->end());
   for (Option& option : options) {
     request.settings.emplace_back(option.name, std::make_unique<bool>(false));
@@ -314,7 +315,7 @@ int draw_to_file(const Options& options) {
   check_folder("--out",
                options.out.has_parent_path() ? options.out.parent_path() : std::filesystem::path("."));
   const auto context = render::create_context(options.context);
-  Stage stage(load(options.state.scene, options.max_triangles, options.state.panes));
+  Stage stage(load(options.state.scene, options.max_triangles, options.state.panes, options.state.edits));
   const auto draw = [&] {
     const std::string refusal = stage.draw(options.state, options.width, options.height, true);
     if (!refusal.empty()) throw std::runtime_error(refusal);

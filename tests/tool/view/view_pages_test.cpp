@@ -75,7 +75,7 @@ TEST(ViewPages, of_the_scene_are_the_renderers) {
   render::Renderer renderer(stage().loaded().scene);
   const Light light = light_of(state.light, stage().loaded().scene.bounds_world);
   const Camera camera = eye_camera(state, stage().loaded().path, {}, kWidth, kHeight);
-  const std::vector<Box>& boxes = stage().loaded().boxes;
+  const std::vector<Box>& boxes = stage().loaded().boxes.all();
   const auto seen =
       std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, render::DepthLayer::front));
   FramePages pages({light, {boxes, boxes}, page_options_of(state.a.pages, plan_options_of(state.a))}, seen);

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "framing.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/scene/load.hpp"
 #include "gnomon/trace/reference.hpp"
@@ -31,6 +32,7 @@ State unusual() {
   State state = hangar();
   state.eye = CameraKey{{1.5, 2.25, 3.0}, {-4.0, 1.0 / 3.0, 0.1}};
   state.panes = true;
+  state.edits = {true, {{{0, 1, 0}, 2.5}, {{-1, 0, 0.25}, 1}}};
   state.frozen = CameraKey{{1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}};
   state.path = {{{0.0, 1.0, 2.0}, {3.0, 4.0, 5.0}}, {{1.0, 1.0, 2.5}, {3.0, 4.0, 5.0}}};
   state.fov_y_deg = 41.5;
@@ -81,6 +83,7 @@ TEST(ViewState, reads_back_what_it_wrote) {
   EXPECT_EQ(back.a.plan.warp.planes, unusual().a.plan.warp.planes);
   EXPECT_TRUE(back.a.plan.clip_space.reversed_z);
   EXPECT_TRUE(back.panes);
+  EXPECT_EQ(back.edits, unusual().edits);
   EXPECT_NEAR(back.a.plan.cadence.largest_turn, 0.125, 1e-15);
   EXPECT_EQ(back.b.filter.format, render::TexelFormat::fp16);
   EXPECT_EQ(back.b.layer, render::DepthLayer::midpoint);
@@ -120,6 +123,9 @@ TEST(ViewState, that_is_broken_is_refused_with_the_key) {
   EXPECT_EQ(refusal("{}"), "gnomon_view: is missing: this is no state of the viewer");
   EXPECT_EQ(refusal(std::string(10'000, '[')), "brackets are nested too deep");
   EXPECT_EQ(refusal(with("\"wipe\": 0.25", "\"wipe\": 2")), "wipe: 2 is not in 0..1");
+  EXPECT_EQ(refusal("{\"gnomon_view\": 1, \"section\": [[0, 1, 0]]}"),
+            "section: needs planes of four numbers");
+  EXPECT_EQ(refusal("{\"gnomon_view\": 1, \"section\": 5}"), "section: needs a list of at most 8 planes");
   EXPECT_EQ(refusal("{\"gnomon_view\": 1, \"path\": 5}"), "path: needs a list of at most 1024 keys");
   EXPECT_EQ(refusal("{\"gnomon_view\": 1, \"path\": [{\"position\": [1, 2, 3], \"target\": [1, 2, 3]}]}"),
             "path[0]: position and target must differ");
@@ -162,6 +168,10 @@ TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
   EXPECT_NE(command.find(" --layer back"), std::string::npos) << command;
   EXPECT_NE(command.find("--eye=1,2,3 --target=0,0,-1 --view heat"), std::string::npos) << command;
   state = hangar();
+  state.edits = {true, {{{-1, 0, 0}, 2.5}, {{0, 1, 0}, 3}}};
+  EXPECT_EQ(command_text(state),
+            "gnomon view builtin:hangar --ground --section=-1,0,0,2.5/0,1,0,3 --map-size 256 --filter pcf");
+  state = hangar();
   state.a.linear_depth = true;
   state.a.map_passes = render::MapPasses::each;
   state.a.identifiers = render::IdentifierTest{};
@@ -170,6 +180,30 @@ TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
       "gnomon view builtin:hangar --map-size 256 --filter identifiers --linear-depth --map-passes each");
   state.a.identifiers = render::IdentifierTest{render::IdentifierOf::triangle, 3};
   EXPECT_NE(command_text(state).find(" --filter identifiers:of=triangle,neighbours=3 "), std::string::npos);
+}
+
+TEST(ViewFraming, puts_an_object_in_the_middle_as_large_as_the_picture_holds) {
+  const Box crate{{4, 0, -1}, {5, 2, 0}};
+  CameraKey eye{{0, 3, 9}, {0, 3, 0}};
+  const glm::dvec3 before = glm::normalize(eye.target - eye.position);
+  frame(eye, crate, {4.5, 2, -0.5}, 0.5);
+  EXPECT_LT(glm::length(eye.target - glm::dvec3(4.5, 1, -0.5)), 1e-12);
+  EXPECT_LT(glm::length(glm::normalize(eye.target - eye.position) - before), 1e-12)
+      << "the view keeps its direction";
+  const double radius = 0.5 * glm::length(crate.max - crate.min);
+  const double angle = std::asin(radius / glm::length(eye.target - eye.position));
+  EXPECT_LT(angle, 0.5);
+  EXPECT_GT(angle, 0.4);
+}
+
+TEST(ViewFraming, comes_half_of_the_way_to_what_surrounds_the_eye_or_is_far_larger) {
+  for (const Box& large : {Box{{-50, -50, -50}, {50, 50, 50}}, Box{{100, -1, -900}, {2000, 0, 900}},
+                           Box{{0, 0, 0}, {0, 0, 0}}}) {
+    CameraKey eye{{0, 2, 10}, {0, 2, 0}};
+    frame(eye, large, {0, 0, 4}, 0.5);
+    EXPECT_EQ(eye.target, glm::dvec3(0, 0, 4));
+    EXPECT_NEAR(glm::length(eye.position - eye.target), 0.5 * std::sqrt(40.0), 1e-12);
+  }
 }
 
 TEST(ViewPicture, of_every_view_shows_something_else) {
@@ -194,7 +228,7 @@ TEST(ViewPicture, of_the_scene_is_the_renderers) {
   const Light light = light_of(state.light, stage().loaded().scene.bounds_world);
   frame.light = &light;
   const Camera camera = eye_camera(state, stage().loaded().path, {}, kWidth, kHeight);
-  const std::vector<Box>& boxes = stage().loaded().boxes;
+  const std::vector<Box>& boxes = stage().loaded().boxes.all();
   renderer.draw(make_plan(camera, light, {boxes, boxes}, plan_options_of(state.a)), camera,
                 renderer.prepare(state.a.filter), frame);
   EXPECT_EQ(share_equal(image, renderer.image(), 0, kWidth), 1.0);

@@ -311,6 +311,25 @@ TEST_F(ViewWindow, stays_where_it_is_at_a_click_and_turns_by_a_drag) {
   EXPECT_EQ(close(), 0);
 }
 
+TEST_F(ViewWindow, comes_to_what_lies_under_the_cursor) {
+  open(kSmall);
+  Image last = picture();
+  drive({"mousemove", "--window", window_, "510", "150"});
+  // The triangles are sorted for rays in the background: until then the key says so.
+  bool came = false;
+  for (int i = 0; i < kMaxPictures && !came; ++i) {
+    key("c");
+    const Image now = picture();
+    came = different_pixels(last, now) > kOther;
+    last = now;
+  }
+  EXPECT_TRUE(came);
+  key("F5");
+  ASSERT_TRUE(wrote("gnomon_view.json"));
+  EXPECT_NE(content_of("gnomon_view.json").find("\"eye\""), std::string::npos);
+  EXPECT_EQ(close(), 0);
+}
+
 TEST_F(ViewWindow, takes_keys_in_their_order_however_long_a_frame_takes) {
   open(kSmall);
   const Image begin = picture();
