@@ -371,6 +371,14 @@ bool decodes(std::string_view extension) noexcept {
          (extension == "EXT_texture_webp" && reads_webp());
 }
 
+std::string remedy_for(std::string_view extension) {
+  if (extension == "KHR_texture_basisu") return "convert its KTX2 pictures to PNG, JPEG or WebP";
+  if (extension == "KHR_draco_mesh_compression") return "this build lacks libdraco";
+  if (extension == "EXT_meshopt_compression") return "this build lacks libmeshoptimizer";
+  if (extension == "EXT_texture_webp") return "this build lacks OpenImageIO";
+  return {};
+}
+
 void check_extensions(const json& source) {
   if (!source.is_object()) return;
   const auto required = source.find("extensionsRequired");
@@ -381,7 +389,9 @@ void check_extensions(const json& source) {
     const auto text = name.get<std::string>();
     if (text.starts_with("KHR_materials_")) continue;
     if (std::find(kSupported.begin(), kSupported.end(), text) == kSupported.end() && !decodes(text)) {
-      throw Refusal("extensionsRequired", "'" + text + "' is not supported");
+      const std::string remedy = remedy_for(text);
+      throw Refusal("extensionsRequired",
+                    "'" + text + "' is not supported" + (remedy.empty() ? "" : ": " + remedy));
     }
   }
 }

@@ -41,6 +41,9 @@ namespace gnomon::detail {
 /// Stops with the name of the first extension in extensionsRequired that is not supported.
 void check_extensions(const nlohmann::json& source);
 
+/// What to do about an extension that is not supported; empty: nothing is known.
+[[nodiscard]] std::string remedy_for(std::string_view extension);
+
 /// source[key] where that is an object, else nothing.
 [[nodiscard]] const nlohmann::json* find_object(const nlohmann::json& source, const char* key);
 

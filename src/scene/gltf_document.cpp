@@ -37,7 +37,8 @@ void warn_of_extensions(const json& source, std::vector<std::string>& warnings) 
        {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_texture_webp", "KHR_texture_basisu"}) {
     for (const json& entry : *used) {
       if (entry == name && !decodes(name))
-        warn(warnings, "extensionsUsed", std::string(name) + " is not supported, fallbacks are used");
+        warn(warnings, "extensionsUsed",
+             std::string(name) + " is not supported, fallbacks are used: " + remedy_for(name));
     }
   }
 }

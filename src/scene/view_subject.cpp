@@ -50,7 +50,8 @@ bool hangs_on_strays(const Scene& scene, const Piece& large, const Box& rest) {
 
 // An instance, or its few large triangles apart from many small ones: a ground in the mesh of a town.
 // Triangles that hang on a stray vertex are omitted.
-bool add_pieces(const Scene& scene, const Instance& instance, std::vector<Piece>& pieces) {
+bool add_pieces(const Scene& scene, const Instance& instance, std::uint32_t stride,
+                std::vector<Piece>& pieces) {
   constexpr double kLarger = 4.0;      // times the box round all that are smaller
   constexpr double kWorthALook = 0.1;  // the largest triangle, of the instance's extent
   constexpr std::size_t kFewest = 4;   // the large ones are at most one in so many
@@ -59,7 +60,7 @@ bool add_pieces(const Scene& scene, const Instance& instance, std::vector<Piece>
   all.instance = &instance;
   std::vector<std::pair<double, std::uint32_t>> by_extent;
   double largest = 0.0;
-  for (std::uint32_t k = 0; k + 2 < primitive.index_count; k += 3) {
+  for (std::uint32_t k = 0; k + 2 < primitive.index_count; k += 3 * stride) {
     const std::uint32_t first = primitive.first_index + k;
     const auto corners = corners_of(scene, instance, first);
     add(all, first, corners);
@@ -68,7 +69,7 @@ bool add_pieces(const Scene& scene, const Instance& instance, std::vector<Piece>
   }
   if (all.triangles.empty() || all.bounds.empty()) return false;
   const std::size_t count = by_extent.size();
-  if (count > kFewest && largest > kWorthALook * all.extent()) {
+  if (stride == 1 && count > kFewest && largest > kWorthALook * all.extent()) {
     std::stable_sort(by_extent.begin(), by_extent.end(),
                      [](const auto& a, const auto& b) { return a.first < b.first; });
     Piece small;
@@ -88,6 +89,7 @@ bool add_pieces(const Scene& scene, const Instance& instance, std::vector<Piece>
       add(small, first, corners_of(scene, instance, first));
     }
   }
+  all.bounds = instance.bounds_world;
   pieces.push_back(std::move(all));
   return false;
 }
@@ -301,11 +303,14 @@ std::array<glm::dvec3, 3> corners_of(const Scene& scene, const Instance& instanc
 }
 
 ViewSubject view_subject(const Scene& scene) {
+  // Of more, some stand for all.
+  constexpr std::uint64_t kMaxLookedAt = 2'000'000;
+  const auto stride = static_cast<std::uint32_t>(1 + scene.triangle_count() / kMaxLookedAt);
   ViewSubject subject;
   std::vector<Piece> all, levels;
   bool stray = false;
   for (const Instance& instance : scene.instances)
-    if (!instance.bounds_world.empty()) stray = add_pieces(scene, instance, all) || stray;
+    if (!instance.bounds_world.empty()) stray = add_pieces(scene, instance, stride, all) || stray;
   for (Piece& piece : all) (is_level(piece) ? levels : subject.pieces).push_back(std::move(piece));
   const std::size_t standing = subject.pieces.size();
   if (standing > 0 && extent_of(box_of(subject.pieces)) > 0.0) {
