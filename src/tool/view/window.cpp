@@ -245,6 +245,11 @@ class Loop {
     return shows_results(app_) && gauge_frame(drawing_, document_.state) ? 0.0 : kRestSeconds;
   }
 
+  /// Whether the present scene has been drawn.
+  [[nodiscard]] bool shows_scene() const noexcept {
+    return drawing_.stage != nullptr && shown_.stage == drawing_.stage.get();
+  }
+
  private:
   void begin_widgets() {
     display_.scale =
@@ -358,8 +363,7 @@ void run_loop(App& app, Loop& loop) {
   bool ahead = true, flown = false;
   while (glfwWindowShouldClose(app.window) == GLFW_FALSE) {
     const double rest = loop.frame();
-    const bool last =
-        app.options.exit_after > 0 && app.drawing.stage != nullptr && ++frames >= app.options.exit_after;
+    const bool last = app.options.exit_after > 0 && loop.shows_scene() && ++frames >= app.options.exit_after;
     if (last && !app.options.screenshot.empty())
       write_png(window_image(app.display.width, app.display.height), app.options.screenshot);
     glfwSwapBuffers(app.window);

@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <filesystem>
+#include <set>
 #include <sstream>
 #include <string>
 #include <thread>
@@ -328,6 +330,23 @@ TEST_F(ViewWindow, comes_to_what_lies_under_the_cursor) {
   ASSERT_TRUE(wrote("gnomon_view.json"));
   EXPECT_NE(content_of("gnomon_view.json").find("\"eye\""), std::string::npos);
   EXPECT_EQ(close(), 0);
+}
+
+TEST_F(ViewWindow, shows_the_scene_in_the_first_frame_that_counts) {
+  const Finished run = spawn_gnomon({"view", "builtin:hangar", "--map-size", "256", "--size", "640x300",
+                                     "--exit-after", "1", "--screenshot", "shot.png"});
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  const Image shot = read("shot.png");
+  // Right of the panel, above the status line.
+  std::set<std::array<std::uint8_t, 3>> colors;
+  for (int y = 0; y < shot.height / 2; ++y)
+    for (int x = 3 * shot.width / 4; x < shot.width; ++x) {
+      const std::uint8_t* const at =
+          &shot.rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(shot.width) +
+                          static_cast<std::size_t>(x))];
+      colors.insert({at[0], at[1], at[2]});
+    }
+  EXPECT_GT(colors.size(), 100u);
 }
 
 TEST_F(ViewWindow, takes_keys_in_their_order_however_long_a_frame_takes) {
