@@ -9,7 +9,6 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <map>
-#include <tuple>
 
 #include "bounds_of.hpp"
 #include "surface_samples.hpp"
@@ -65,7 +64,7 @@ class Cut {
 
  private:
   std::uint32_t crossing(std::uint32_t from, std::uint32_t to) {
-    if (is_before(to, from)) std::swap(from, to);  // one edge, whichever triangle asks
+    if (from > to) std::swap(from, to);  // one edge, whichever triangle asks
     const auto known = crossings_.find({from, to});
     if (known != crossings_.end()) return known->second;
     const double a = plane_.value(scene_.positions[from]), b = plane_.value(scene_.positions[to]);
@@ -82,12 +81,6 @@ class Cut {
     const auto vertex = static_cast<std::uint32_t>(scene_.positions.size() - 1);
     crossings_.emplace(std::pair(from, to), vertex);
     return vertex;
-  }
-
-  // By place: triangles with normals of their own share corners in this alone.
-  [[nodiscard]] bool is_before(std::uint32_t a, std::uint32_t b) const {
-    const glm::vec3 &p = scene_.positions[a], &q = scene_.positions[b];
-    return std::tuple(p.x, p.y, p.z, a) < std::tuple(q.x, q.y, q.z, b);
   }
 
   Scene& scene_;

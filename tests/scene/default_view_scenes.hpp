@@ -287,6 +287,18 @@ inline std::vector<ViewScene> default_view_scenes() {
     s.backdrop(land(1000.0, 100, 1.0));
   }
   {
+    ViewScene& s = scene("town_in_a_crater");
+    add_town(s);
+    PartMesh crater;
+    s.backdrop(crater.sheet(120, 120,
+                            [](double u, double v) {
+                              const double x = (2 * u - 1) * 900.0, z = (1 - 2 * v) * 900.0;
+                              return glm::dvec3(x, std::clamp((std::hypot(x, z) - 75.0) * 1.1, 0.0, 150.0),
+                                                z);
+                            }),
+               true);
+  }
+  {
     ViewScene& s = scene("car");
     for (const double x : {-1.4, 1.4})
       for (const double z : {-0.75, 0.75}) {
