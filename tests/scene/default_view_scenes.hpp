@@ -293,7 +293,7 @@ inline std::vector<ViewScene> default_view_scenes() {
     s.backdrop(crater.sheet(120, 120,
                             [](double u, double v) {
                               const double x = (2 * u - 1) * 900.0, z = (1 - 2 * v) * 900.0;
-                              return glm::dvec3(x, std::clamp((std::hypot(x, z) - 75.0) * 1.1, 0.0, 150.0),
+                              return glm::dvec3(x, std::clamp((std::hypot(x, z) - 75.0) * 3.0, 0.0, 150.0),
                                                 z);
                             }),
                true);
