@@ -32,6 +32,10 @@ SeenShadow seen_shadow(const Tracer& tracer, const Camera& camera, const Light& 
       seen.view_depths[begin + column] =
           static_cast<float>(glm::dot(axes.forward, point.position - camera.position));
       if (point.state != PixelState::facing) continue;
+      if (!point.receives) {
+        seen.mask[begin + column] = 1.0f;
+        continue;
+      }
       const LightRay to_light = light_ray(light, point.position);
       pixels.push_back(begin + column);
       rays.push_back(ray_off_plane(point, point.position, to_light.direction, to_light.distance,
