@@ -54,7 +54,8 @@ std::unique_ptr<JudgedFrame> judge_frame(const Capture& capture, const CapturedF
   return judged;
 }
 
-/// The maps of one light as a plan.
+}  // namespace
+
 ShadowPlan plan_of(const Capture& capture, const CapturedFrame& frame, int light) {
   ShadowPlan plan;
   plan.status = PlanStatus::ok;
@@ -85,6 +86,8 @@ ShadowPlan plan_of(const Capture& capture, const CapturedFrame& frame, int light
   }
   return plan;
 }
+
+namespace {
 
 /// gnomon's plan for the frame's camera and light, with as many maps and texels.
 ShadowPlan plan_beside(const Capture& capture, const CapturedFrame& frame, const CapturedScene& scene,

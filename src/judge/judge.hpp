@@ -91,6 +91,9 @@ struct LightFigures {
   [[nodiscard]] std::vector<const Planned*> planned() const;
 };
 
+/// The maps of one light of a frame as a plan, for measure() and a renderer, in the file's order.
+[[nodiscard]] ShadowPlan plan_of(const Capture& capture, const CapturedFrame& frame, int light);
+
 struct Judgement {
   std::vector<LightFigures> lights;
   std::vector<Finding> findings;

@@ -65,6 +65,24 @@ CameraPath glass_flight() {
                  {{11.0, 4.5, 7.0}, {0.0, 0.5, -1.5}}});
 }
 
+CameraPath room_flight() {
+  return flight(0.05, 40.0,
+                {{{-4.6, 1.7, -3.0}, {0.0, 0.7, 1.0}},
+                 {{-2.2, 1.5, -2.6}, {1.5, 0.5, 1.5}},
+                 {{0.2, 1.4, -2.4}, {2.5, 0.4, 0.5}},
+                 {{2.4, 1.6, -2.2}, {0.5, 0.3, 1.5}},
+                 {{4.4, 2.2, -2.8}, {-2.0, 0.2, 1.0}}});
+}
+
+CameraPath street_flight() {
+  return flight(0.5, 250.0,
+                {{{0.0, 4.0, 14.0}, {0.0, 2.5, -20.0}},
+                 {{0.5, 3.0, -8.0}, {-4.0, 1.5, -40.0}},
+                 {{-1.0, 2.0, -40.0}, {4.0, 1.0, -70.0}},
+                 {{0.0, 9.0, -75.0}, {0.0, 0.0, -120.0}},
+                 {{2.0, 14.0, -110.0}, {-6.0, 0.0, -150.0}}});
+}
+
 CameraPath trees_flight() {
   return flight(0.2, 180.0,
                 {{{-56.0, 2.2, 0.0}, {-36.0, 2.4, -1.0}},
@@ -104,6 +122,8 @@ CameraPath default_path(const Scene& scene, double aspect) {
   if (name == "builtin:fence") return fence_flight();
   if (name == "builtin:glass") return glass_flight();
   if (name == "builtin:hangar") return hangar_flight();
+  if (name == "builtin:room") return room_flight();
+  if (name == "builtin:street") return street_flight();
   if (name == "builtin:terrain") return terrain_flight();
   if (name == "builtin:trees") return trees_flight();
   return detail::orbit(scene, aspect);

@@ -11,16 +11,18 @@ namespace gnomon {
 
 namespace {
 
-constexpr std::array<BuiltinScene, 6> kScenes{
+constexpr std::array<BuiltinScene, 8> kScenes{
     {{"city", "2 km of streets, blocks and towers from shared meshes: near and far in one view"},
      {"fence", "wire mesh, pickets and posts before walls, benches and crates: detail below a texel"},
      {"glass", "walls and a roof of coloured panes: light that is not stopped but tinted"},
      {"hangar", "open steel hall with trusses, purlins and crates: nested thin shadows"},
+     {"room", "a room behind windows with blinds: furniture that stands close, light through slats"},
+     {"street", "boxes along a street, as the captures of engines were made in"},
      {"terrain", "1 km of hills with boulders and standing stones, for grazing light"},
      {"trees", "a grove with foliage cut out of cards by alpha"}}};
-constexpr std::array<std::string (*)(), kScenes.size()> kBuilders{detail::build_city,    detail::build_fence,
-                                                                  detail::build_glass,   detail::build_hangar,
-                                                                  detail::build_terrain, detail::build_trees};
+constexpr std::array<std::string (*)(), kScenes.size()> kBuilders{
+    detail::build_city, detail::build_fence,  detail::build_glass,   detail::build_hangar,
+    detail::build_room, detail::build_street, detail::build_terrain, detail::build_trees};
 
 }  // namespace
 

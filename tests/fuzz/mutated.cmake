@@ -46,7 +46,7 @@ if(TARGET gnomon_scene)
   gnomon_mutated(camera_path SEEDS ${seeds_camera_path} LIBS gnomon::scene)
   if(GNOMON_HAS_OPENIMAGEIO)
     gnomon_mutated(image SEEDS ${seeds_image} LIBS gnomon::scene
-      SOURCES ${PROJECT_SOURCE_DIR}/src/scene/png.cpp ${PROJECT_SOURCE_DIR}/src/scene/inflate.cpp)
+      SOURCES ${PROJECT_SOURCE_DIR}/src/scene/png.cpp)
   endif()
 endif()
 if(TARGET gnomon_report)

@@ -30,7 +30,10 @@ struct Technique {
   double page_target_m = 0.0;  ///< error that pages are opened for; 0: the least that the pool holds
   /// Name of the render::DepthLayer that the maps store. Empty: front.
   std::string layer = {};
-  /// "warp lispsm", or "pages resolution": the charts' marks.
+  /// Name of an entry of others, whose maps or masks are measured. Warp, split and fit are empty then, and
+  /// cascades and map_size 0 for masks. Empty: gnomon's own plan.
+  std::string entry = {};
+  /// "warp lispsm", "pages resolution" or "entry three": the charts' marks.
   [[nodiscard]] std::string kind() const;
   /// "none / auto / 4 x 1024 / pcf": unique within a sweep, for people.
   [[nodiscard]] std::string name() const;
@@ -55,7 +58,7 @@ struct Times {
   /// The same once more in those rounds, as if it were another technique: what the clock's noise is. 0: not
   /// measured.
   double baseline_again_ms = 0.0;
-  int rounds = 0;  ///< measured, warm-up not counted
+  int rounds = 0;  ///< measured, warm-up not counted; 0: stated by an entry, or total_ms 0: not known
   /// total over baseline; 0 where there is none.
   [[nodiscard]] double ratio() const noexcept {
     return baseline_ms > 0.0 ? total_ms.median / baseline_ms : 0.0;
@@ -108,10 +111,13 @@ struct Row {
   double animation_time_s = 0.0;  ///< of the frame's pose, seconds
   Technique technique;            ///< how the shadow was made
   std::string plan_status;        ///< name of the PlanStatus
-  std::string truth;              ///< what mean_error is against: "filtered", "area", "hard" or "facet"
-  MaskErrors errors;              ///< against the truth
-  std::uint64_t undecided_pixels = 0;     ///< undecided by the geometry, not counted in `errors`
-  double flips = 0.0;                     ///< excess flips per pixel over one step of a 60 Hz viewer
+  /// What mean_error is against: "filtered", "area", "hard" or "facet". "none": masks of an unknown kernel,
+  /// which have no mean error, leaking and darkening.
+  std::string truth;
+  MaskErrors errors;                   ///< against the truth
+  std::uint64_t undecided_pixels = 0;  ///< undecided by the geometry, not counted in `errors`
+  /// Excess flips per pixel over one step of a 60 Hz viewer; not a number where an entry has no frame before.
+  double flips = 0.0;
   int pixel_samples = kPixelSamples;      ///< rays of each pixel for `pixel`; 0: not measured
   std::optional<PixelErrors> pixel = {};  ///< against whole pixels; rows of earlier versions have none
   PixelAliasing aliasing;                 ///< over the pixels of the frame
@@ -124,8 +130,13 @@ struct Row {
   Pictures pictures;              ///< of this frame
   Machine machine;                ///< that measured
 
-  /// Everything that identifies a measurement, except the machine and the content of the scene's files: equal
-  /// keys mean the same measurement.
+  /// Name of the view in a study, for people. Empty: none.
+  std::string view = {};
+
+  /// Masks that others drew: nothing of their maps is known.
+  [[nodiscard]] bool is_masks() const noexcept { return !technique.entry.empty() && technique.cascades == 0; }
+  /// Everything that identifies a measurement, except the machine, the view's name and the content of the
+  /// scene's files: equal keys mean the same measurement.
   [[nodiscard]] std::string key() const;
 };
 

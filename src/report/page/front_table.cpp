@@ -23,9 +23,9 @@ std::string line(const Summary& summary, std::size_t scene, std::size_t techniqu
   // Rows of earlier versions have none of the two.
   const auto text = [&](std::string_view key) { return measures()[measure_index(key)].text(value(key)); };
   return "| " + cell(summary.techniques[technique].name()) + " | " + (on_front ? "yes" : "") + " | " +
-         percent(value("wrong")) + " | " + text("pixel_error") + " | " + percent(value("mean_error")) +
-         " | " + percent(value("flips")) + " | " + text("twinkle") + " | " + short_number(value("m_p95")) +
-         " | " + short_number(value("total_ms")) + " | " + short_number(value("ratio")) + " |\n";
+         percent(value("wrong")) + " | " + text("pixel_error") + " | " + text("mean_error") + " | " +
+         text("flips") + " | " + text("twinkle") + " | " + short_number(value("m_p95")) + " | " +
+         short_number(value("total_ms")) + " | " + short_number(value("ratio")) + " |\n";
 }
 
 /// Of the filters that have no technique on the front, the one with the least error.

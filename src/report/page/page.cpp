@@ -77,11 +77,11 @@ std::string technique_columns(const Technique& t) {
   return csv_field(t.warp) + "," + csv_field(t.split) + "," + csv_field(t.fit) + "," +
          std::to_string(t.cascades) + "," + std::to_string(t.map_size) + "," + csv_field(t.filter) + "," +
          csv_field(t.pages) + "," + std::to_string(t.page_texels) + "," + exact_number(t.page_target_m) +
-         "," + csv_field(t.layer);
+         "," + csv_field(t.layer) + "," + csv_field(t.entry);
 }
 
 constexpr const char* kTechniqueHead =
-    "warp,split,fit,cascades,map_size,filter,pages,page_texels,page_target_m,layer";
+    "warp,split,fit,cascades,map_size,filter,pages,page_texels,page_target_m,layer,entry";
 
 std::string measure_head() {
   std::string line;
@@ -105,12 +105,12 @@ std::string summary_csv(const Summary& summary) {
 
 std::string frames_csv(const std::vector<Row>& rows) {
   std::string head = measure_head();
-  head.insert(head.size() - 1, ",camera");
+  head.insert(head.size() - 1, ",camera,view");
   std::string out = std::string("scene,frame,") + kTechniqueHead + head;
   for (const Row& row : rows) {
     out += csv_field(row.scene) + "," + std::to_string(row.frame) + "," + technique_columns(row.technique);
     for (const Measure& measure : measures()) out += "," + exact_number(measure.of(row));
-    out += "," + csv_field(row.camera) + "\n";
+    out += "," + csv_field(row.camera) + "," + csv_field(row.view) + "\n";
   }
   return out;
 }

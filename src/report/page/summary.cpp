@@ -68,18 +68,30 @@ Cell all_scenes(const std::vector<std::vector<Cell>>& cells, std::size_t techniq
     constexpr double kLeastCost = 1e-6;  // of a pass that did not run
     double sum = 0.0;
     for (const double value : values) sum += value / static_cast<double>(values.size());
-    all.values.push_back(measures()[m].is_cost ? geometric_mean(values, kLeastCost) : sum);
+    // One that was not measured everywhere makes the sum no number.
+    all.values.push_back(measures()[m].is_cost && !std::isnan(sum) ? geometric_mean(values, kLeastCost)
+                                                                   : sum);
   }
   return all;
 }
 
-/// What a row's scene goes by: with its camera where the rows have several of the scene.
+/// The value of rows whose maps are known: masks of others say nothing of them and of parts of their time.
+double of_maps(const Row& row, double value) {
+  return row.is_masks() ? kNotMeasured : value;
+}
+/// The value where the filter's kernel is known.
+double of_kernel(const Row& row, double value) {
+  return row.truth == "none" ? kNotMeasured : value;
+}
+
+/// What a row's scene goes by: the view's name, else the scene, with its camera where the rows have several.
 class SceneNames {
  public:
   explicit SceneNames(const std::vector<Row>& rows) {
     for (const Row& row : rows) cameras_[row.scene].insert(row.camera);
   }
   [[nodiscard]] std::string of(const Row& row) const {
+    if (!row.view.empty()) return row.view;
     return row.camera.empty() || cameras_.at(row.scene).size() < 2 ? row.scene
                                                                    : row.scene + ", " + row.camera;
   }
@@ -104,15 +116,15 @@ const std::vector<Measure>& measures() {
       {"pixel_error_one_surface", "pixel error where a pixel shows one surface", "%", "of one surface", false,
        [](const Row& r) { return r.pixel ? r.pixel->one_surface : kNotMeasured; }},
       {"mean_error", "mean error against the ideal filter", "%", "mean error", false,
-       [](const Row& r) { return r.errors.mean_error; }},
+       [](const Row& r) { return of_kernel(r, r.errors.mean_error); }},
       {"leaking", "light leaking deep in shadow", "%", "leaking", false,
-       [](const Row& r) { return r.errors.leaking; }},
+       [](const Row& r) { return of_kernel(r, r.errors.leaking); }},
       {"darkening", "darkening of lit surfaces", "%", "darkening", false,
-       [](const Row& r) { return r.errors.darkening; }},
+       [](const Row& r) { return of_kernel(r, r.errors.darkening); }},
       {"too_dark", "acne: lit surfaces darker by over a tenth", "%", "too dark", false,
-       [](const Row& r) { return r.errors.too_dark; }},
+       [](const Row& r) { return of_kernel(r, r.errors.too_dark); }},
       {"too_light", "leaks: deep shadow brighter by over a tenth", "%", "too light", false,
-       [](const Row& r) { return r.errors.too_light; }},
+       [](const Row& r) { return of_kernel(r, r.errors.too_light); }},
       {"flips", "flicker (excess flips per pixel and frame)", "%", "flicker", false,
        [](const Row& r) { return r.flips; }},
       {"twinkle", "twinkling (pixels that change more than the light over them)", "%", "twinkling", false,
@@ -120,27 +132,33 @@ const std::vector<Measure>& measures() {
       {"twinkle_tracked", "twinkling of points that the eye follows", "%", "followed", false,
        [](const Row& r) { return r.pixel ? r.pixel->twinkle_tracked : kNotMeasured; }},
       {"m_p95", "aliasing error m, 95th percentile", "pixels per texel", "m p95", false,
-       [](const Row& r) { return r.aliasing.p95; }, Gather::largest},
+       [](const Row& r) { return of_maps(r, r.aliasing.p95); }, Gather::largest},
       {"share_undersampled", "share of pixels with m > 1", "%", "m > 1", false,
-       [](const Row& r) { return r.aliasing.share_undersampled; }},
+       [](const Row& r) { return of_maps(r, r.aliasing.share_undersampled); }},
       {"total_ms", "shadow time per frame", "ms", "time, ms", true,
-       [](const Row& r) { return r.times.total_ms.median; }},
+       [](const Row& r) {
+         return r.is_masks() && r.times.total_ms.median == 0.0 ? kNotMeasured : r.times.total_ms.median;
+       }},
       {"ratio", "time relative to one unwarped map with hard shadows", "", "x baseline", true,
-       [](const Row& r) { return r.times.ratio(); }},
+       [](const Row& r) { return of_maps(r, r.times.ratio()); }},
       {"plan_us", "planning", "\xC2\xB5s", "plan, \xC2\xB5s", true,
-       [](const Row& r) { return r.times.plan_ns.median * kMicrosecondsPerNanosecond; }},
+       // The maps of a capture were planned elsewhere.
+       [](const Row& r) {
+         return r.technique.entry.empty() ? r.times.plan_ns.median * kMicrosecondsPerNanosecond
+                                          : kNotMeasured;
+       }},
       {"depth_ms", "drawing depths", "ms", "depth, ms", true,
-       [](const Row& r) { return r.times.depth_ms.median; }},
+       [](const Row& r) { return of_maps(r, r.times.depth_ms.median); }},
       {"prefilter_ms", "prefilter", "ms", "prefilter, ms", true,
-       [](const Row& r) { return r.times.prefilter_ms.median; }},
+       [](const Row& r) { return of_maps(r, r.times.prefilter_ms.median); }},
       {"shade_ms", "look-up", "ms", "look-up, ms", true,
-       [](const Row& r) { return r.times.shade_ms.median; }},
+       [](const Row& r) { return of_maps(r, r.times.shade_ms.median); }},
       {"draws", "draw calls", "", "draws", true,
-       [](const Row& r) { return static_cast<double>(r.costs.draws); }},
+       [](const Row& r) { return of_maps(r, static_cast<double>(r.costs.draws)); }},
       {"triangles", "triangles drawn", "", "triangles", true,
-       [](const Row& r) { return static_cast<double>(r.costs.triangles); }},
+       [](const Row& r) { return of_maps(r, static_cast<double>(r.costs.triangles)); }},
       {"map_mib", "memory of the maps", "MiB", "maps, MiB", true,
-       [](const Row& r) { return static_cast<double>(r.costs.map_bytes) * kMebibytesPerByte; },
+       [](const Row& r) { return of_maps(r, static_cast<double>(r.costs.map_bytes) * kMebibytesPerByte); },
        Gather::largest}};
   return all;
 }

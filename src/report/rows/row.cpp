@@ -29,6 +29,7 @@ Json to_json(const Technique& t) {
             {"fit", t.fit},   {"map_size", t.map_size}, {"filter", t.filter}};
   // As before there were layers and pages: results can be continued.
   if (!t.layer.empty()) json["layer"] = t.layer;
+  if (!t.entry.empty()) json["entry"] = t.entry;
   if (t.pages.empty()) return json;
   json["pages"] = t.pages;
   json["page_texels"] = t.page_texels;
@@ -37,19 +38,23 @@ Json to_json(const Technique& t) {
 }
 
 Json pixel_json(const PixelErrors& p) {
-  return {{"pixels", p.pixels},           {"several", p.several}, {"error", p.error},
-          {"one_surface", p.one_surface}, {"twinkle", p.twinkle}, {"twinkle_tracked", p.twinkle_tracked}};
+  return {{"pixels", p.pixels},
+          {"several", p.several},
+          {"error", p.error},
+          {"one_surface", p.one_surface},
+          {"twinkle", number(p.twinkle)},
+          {"twinkle_tracked", number(p.twinkle_tracked)}};
 }
 
 Json errors_json(const Row& row) {
   const MaskErrors& e = row.errors;
-  Json json{{"pixels", e.pixels},       {"undecided_pixels", row.undecided_pixels},
-            {"false_lit", e.false_lit}, {"false_shadow", e.false_shadow},
-            {"truth", row.truth},       {"mean_error", e.mean_error},
-            {"leaking", e.leaking},     {"deep_pixels", e.deep_pixels},
-            {"darkening", e.darkening}, {"open_pixels", e.open_pixels},
-            {"too_dark", e.too_dark},   {"too_light", e.too_light},
-            {"flips", row.flips}};
+  Json json{{"pixels", e.pixels},        {"undecided_pixels", row.undecided_pixels},
+            {"false_lit", e.false_lit},  {"false_shadow", e.false_shadow},
+            {"truth", row.truth},        {"mean_error", e.mean_error},
+            {"leaking", e.leaking},      {"deep_pixels", e.deep_pixels},
+            {"darkening", e.darkening},  {"open_pixels", e.open_pixels},
+            {"too_dark", e.too_dark},    {"too_light", e.too_light},
+            {"flips", number(row.flips)}};
   if (row.pixel) json["pixel"] = pixel_json(*row.pixel);
   return json;
 }
@@ -129,6 +134,7 @@ Json lasting_json(const Row& row) {
   Json json{{"schema", kRowSchema}, {"index", row.index}};
   json.update(settings_json(row));
   json["scene_hash"] = row.scene_hash;
+  if (!row.view.empty()) json["view"] = row.view;
   if (!row.animation.empty()) json["animation_time_s"] = row.animation_time_s;
   json["plan_status"] = row.plan_status;
   json["errors"] = errors_json(row);
@@ -172,6 +178,11 @@ double number_from(const Json& json) {
   return json.is_null() ? std::numeric_limits<double>::infinity() : real_from(json);
 }
 
+/// Of a number that an entry of others may lack.
+double number_or_none(const Json& json) {
+  return json.is_null() ? std::numeric_limits<double>::quiet_NaN() : real_from(json);
+}
+
 Estimate estimate_from(const Json& json) {
   return {real_from(json.at("median")), real_from(json.at("low")), real_from(json.at("high"))};
 }
@@ -185,6 +196,7 @@ Technique technique_from(const Json& json) {
   get_whole(json.at("map_size"), t.map_size);
   json.at("filter").get_to(t.filter);
   if (json.contains("layer")) json.at("layer").get_to(t.layer);
+  if (json.contains("entry")) json.at("entry").get_to(t.entry);
   if (!json.contains("pages")) return t;
   json.at("pages").get_to(t.pages);
   get_whole(json.at("page_texels"), t.page_texels);
@@ -207,7 +219,7 @@ void errors_from(const Json& json, Row& row) {
   // Rows of an earlier version have none.
   if (json.contains("too_dark")) e.too_dark = real_from(json.at("too_dark"));
   if (json.contains("too_light")) e.too_light = real_from(json.at("too_light"));
-  row.flips = real_from(json.at("flips"));
+  row.flips = number_or_none(json.at("flips"));
   // Rows of an earlier version, and of sweeps without it, have none.
   if (!json.contains("pixel")) return;
   const Json& p = json.at("pixel");
@@ -216,8 +228,8 @@ void errors_from(const Json& json, Row& row) {
   get_whole(p.at("several"), pixel.several);
   pixel.error = real_from(p.at("error"));
   pixel.one_surface = real_from(p.at("one_surface"));
-  pixel.twinkle = real_from(p.at("twinkle"));
-  pixel.twinkle_tracked = real_from(p.at("twinkle_tracked"));
+  pixel.twinkle = number_or_none(p.at("twinkle"));
+  pixel.twinkle_tracked = number_or_none(p.at("twinkle_tracked"));
 }
 
 void results_from(const Json& json, Row& row) {
@@ -292,12 +304,14 @@ void measurement_from(const Json& json, Row& row) {
 }  // namespace
 
 std::string Technique::kind() const {
+  if (!entry.empty()) return "entry " + entry;
   return pages.empty() ? "warp " + warp : "pages " + pages;
 }
 
 std::string Technique::name() const {
   std::string maps = std::to_string(cascades) + " x " + std::to_string(map_size) +
                      (layer.empty() ? "" : " " + layer + " layer");
+  if (!entry.empty()) return entry + (cascades > 0 ? " / " + maps : std::string()) + " / " + filter;
   if (!pages.empty()) {
     const std::string target = page_target_m > 0.0 ? " m " + short_number(page_target_m) : "";
     return kind() + " " + std::to_string(page_texels) + target + (fit == "stable" ? " stable" : "") +
@@ -340,6 +354,8 @@ Row row_from_json(const std::string& line, const std::string& where) {
     row.light_azimuth_deg = real_from(json.at("light_azimuth_deg"));
     // Rows of an earlier version have none.
     if (json.contains("scene_hash")) json.at("scene_hash").get_to(row.scene_hash);
+    // Rows of views without a name have none.
+    if (json.contains("view")) json.at("view").get_to(row.view);
     // Rows of the scene's own flight have none.
     if (json.contains("camera")) json.at("camera").get_to(row.camera);
     // Rows of the default number have none.

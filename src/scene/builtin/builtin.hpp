@@ -9,6 +9,8 @@ namespace gnomon::detail {
 [[nodiscard]] std::string build_fence();
 [[nodiscard]] std::string build_glass();
 [[nodiscard]] std::string build_hangar();
+[[nodiscard]] std::string build_room();
+[[nodiscard]] std::string build_street();
 [[nodiscard]] std::string build_terrain();
 [[nodiscard]] std::string build_trees();
 

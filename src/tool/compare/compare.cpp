@@ -1,35 +1,35 @@
 // `gnomon compare`: every technique of a sweep on every frame of every scene, a row of results each.
 #include "compare.hpp"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cinttypes>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
+#include <glm/geometric.hpp>
 #include <memory>
-#include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
 
 #include "animation_words.hpp"
+#include "base/fnv.hpp"
 #include "command.hpp"
+#include "entry_file.hpp"
 #include "frame_pictures.hpp"
 #include "gnomon/report/page.hpp"
 #include "gnomon/report/rows_file.hpp"
 #include "gnomon/scene/load.hpp"
-#include "identifier_word.hpp"
+#include "gnomon/trace/tracer.hpp"
 #include "interrupt.hpp"
 #include "machine.hpp"
 #include "measure.hpp"
-#include "offscreen_context.hpp"
 #include "output.hpp"
-#include "picture_words.hpp"
 #include "progress.hpp"
 #include "scene_words.hpp"
 #include "stage.hpp"
-#include "study_file.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -57,6 +57,7 @@ report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::siz
   row.animation = sweep.animation;
   row.pixel_samples = sweep.pixel_samples;
   row.technique = sweep.entries[entry].technique;
+  row.view = sweep.view;
   return row;
 }
 
@@ -102,6 +103,16 @@ struct Part {
   std::vector<std::string> hashes;
 };
 
+/// Throws std::runtime_error where a study was made for other files.
+void check_hashes(const Part& part) {
+  const std::string& wanted = part.request->files.hash;
+  for (std::size_t i = 0; i < part.hashes.size() && !wanted.empty(); ++i) {
+    if (part.hashes[i] != wanted)
+      throw std::runtime_error(part.request->where + ".hash: " + part.sweep.scenes[i] + " has " +
+                               (part.hashes[i].empty() ? "none" : part.hashes[i]) + ", and not " + wanted);
+  }
+}
+
 std::set<std::string> known_keys(const std::vector<Part>& parts, bool resume) {
   const fs::path file = fs::path(parts.front().sweep.out) / report::kRowsFile;
   std::set<std::string> keys;
@@ -127,12 +138,71 @@ std::set<std::string> known_keys(const std::vector<Part>& parts, bool resume) {
   return keys;
 }
 
+/// Entries of others that are not measured, a line for each entry and scene.
+class RefusedEntries {
+ public:
+  void refuse(const std::string& entry, const std::string& scene, const std::string& why) {
+    const std::string line = "entry " + entry + (scene.empty() ? "" : ", " + scene) + ": " + why;
+    if (std::find(lines_.begin(), lines_.end(), line) != lines_.end()) return;
+    warn(line + "; it is not measured");
+    lines_.push_back(line);
+  }
+  [[nodiscard]] const std::vector<std::string>& lines() const noexcept { return lines_; }
+
+ private:
+  std::vector<std::string> lines_;
+};
+
+/// Why an entry of others has nothing for a row's frame. Empty: it has, or gnomon plans the entry.
+std::string why_not(const Stage& stage, const SweepEntry& entry, const report::Row& row) {
+  const std::string frame = "frame " + std::to_string(row.frame);
+  if (entry.given != nullptr) {
+    const GivenMasks::Frame* const masks = masks_of(*entry.given, row);
+    if (masks == nullptr) return "has no mask of " + frame + " of " + std::to_string(row.frames);
+    try {
+      (void)read_masks(*entry.given, *masks, row.width, row.height);
+    } catch (const std::runtime_error& error) {
+      return error.what();
+    }
+    return {};
+  }
+  if (entry.captured == nullptr) return {};
+  const auto* const sun = std::get_if<DirectionalLight>(&stage.light());
+  constexpr double kAngle = 1e-5;
+  if (sun == nullptr ||
+      glm::length(glm::normalize(sun->direction) - entry.captured->light_direction) > kAngle)
+    return "its maps are of another light; --capture takes cameras and sun from it";
+  for (const Camera& camera : {stage.camera(row.frame), stage.camera_before(row.frame)}) {
+    if (entry.captured->at(camera) == nullptr)
+      return "has no frame of the camera of " + frame +
+             ", or of the one before it; --capture takes its cameras";
+  }
+  return {};
+}
+
+/// Where exact results are kept: beside --out unless the request says otherwise.
+ExactResults exact_results(const Part& part, std::size_t scene) {
+  if (part.request->exact == "none") return {};
+  const fs::path out(part.sweep.out);
+  const fs::path beside = (out.has_filename() ? out : out.parent_path()).parent_path() / "exact";
+  const Sweep& s = part.sweep;
+  std::string identity = std::string(build_version()) + "\n" +
+                         (trace::built_with_embree() ? "embree" : "own") + "\n" + s.scenes[scene] + "\n" +
+                         part.hashes[scene] + "\n" + s.animation + "\n" +
+                         std::string(to_string(s.light.kind));
+  ExactKey light(fnv_of(identity));
+  light.add(s.light.elevation_deg).add(s.light.azimuth_deg);
+  identity += "\n" + std::to_string(light.hash());
+  return {part.request->exact.empty() ? beside : fs::path(part.request->exact), identity};
+}
+
 /// Sweeps under way, one after the other.
 class Run {
  public:
   Run(const std::vector<Part>& parts, const report::Machine& machine, std::set<std::string> known,
-      report::ResultsLock lock)
+      report::ResultsLock lock, RefusedEntries& refused)
       : parts_(parts),
+        refused_(refused),
         machine_(machine),
         known_(std::move(known)),
         file_(fs::path(parts.front().sweep.out) / report::kRowsFile, std::move(lock)),
@@ -173,12 +243,34 @@ class Run {
     return tasks_of(*part.request, part.sweep, scene, frame, known_);
   }
 
+  /// Names the entries of others that do not hold all frames of a scene.
+  void refuse_entries(const Part& part, const Stage& stage, std::size_t scene) {
+    for (std::size_t entry = 0; entry < part.sweep.entries.size(); ++entry) {
+      const SweepEntry& one = part.sweep.entries[entry];
+      std::string why;
+      for (int frame = 0; frame < part.sweep.frames && why.empty(); ++frame)
+        why = why_not(stage, one, empty_row(part.sweep, scene, frame, entry));
+      if (why.empty()) continue;
+      refused_here_.insert(entry);
+      refused_.refuse(one.technique.entry, part.sweep.scenes[scene], why);
+    }
+  }
+
   void one_scene(const Part& part, std::size_t scene) {
     std::unique_ptr<Stage> stage;
+    refused_here_.clear();
     for (int frame = 0; frame < part.sweep.frames; ++frame) {
       std::vector<Task> tasks = tasks_in(part, scene, frame);
       if (tasks.empty()) continue;
-      if (!stage) stage = std::make_unique<Stage>(part.sweep, part.sweep.scenes[scene]);
+      if (!stage) {
+        stage = std::make_unique<Stage>(part.sweep, part.sweep.scenes[scene], exact_results(part, scene));
+        refuse_entries(part, *stage, scene);
+      }
+      const auto refused = [&](const Task& task) { return refused_here_.contains(task.entry); };
+      step(static_cast<long long>(std::count_if(tasks.begin(), tasks.end(), refused)) *
+           (steps_of_errors(part.sweep) + part.sweep.rounds + 1));
+      std::erase_if(tasks, refused);
+      if (tasks.empty()) continue;
       one_frame(part, *stage, scene, frame, tasks);
     }
   }
@@ -192,30 +284,45 @@ class Run {
     const Sweep& sweep = part.sweep;
     const FrameTruth truth = frame_truth(stage, frame, sweep.baseline, sweep.pixel_samples);
     const bool pictures = frame == sweep.frames / 2;
-    std::vector<const SweepEntry*> entries;
+    std::vector<const SweepEntry*> entries;  // that are drawn and timed
+    std::vector<FrameMasks> masks;
     for (Task& task : tasks) {
       const SweepEntry& entry = sweep.entries[task.entry];
+      masks.emplace_back();
+      if (entry.given != nullptr) {
+        measure_given(truth, *entry.given, task.row, masks.back());
+        step(steps_of_errors(sweep) + sweep.rounds + 1);
+        continue;
+      }
       entries.push_back(&entry);
       FramePictures drawn;
-      measure_errors(stage, truth, entry, task.row, pictures ? &drawn : nullptr);
+      masks.back() = measure_errors(stage, truth, entry, task.row, pictures ? &drawn : nullptr);
+      if (!part.request->write_masks) masks.back() = {};
       if (pictures)
         task.row.pictures = write_pictures(sweep.out, sweep.first_scene + scene, task.entry, truth, drawn);
       step(steps_of_errors(sweep));
     }
     const std::vector<report::Times> times =
         measure_times(stage, truth.camera, entries, sweep.baseline, sweep.rounds, [this] { step(1); });
+    std::size_t timed = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
+      const bool is_given = sweep.entries[tasks[i].entry].given != nullptr;
       tasks[i].row.scene_hash = part.hashes[scene];
       tasks[i].row.animation_time_s = stage.animation_seconds(frame);
-      tasks[i].row.times = times[i];
+      if (!is_given) tasks[i].row.times = times[timed++];
       tasks[i].row.machine = machine_;
       tasks[i].row.machine.load = current_load();
+      if (part.request->write_masks && !is_given)
+        write_masks(fs::path(sweep.out) / "masks" / ("technique" + std::to_string(tasks[i].entry)),
+                    tasks[i].row, {truth.camera, truth.before, stage.light()}, masks[i]);
       file_.append(tasks[i].row);
       known_.insert(tasks[i].row.key());
     }
   }
 
   const std::vector<Part>& parts_;
+  RefusedEntries& refused_;
+  std::set<std::size_t> refused_here_;  ///< entries of the sweep, in the scene under way
   report::Machine machine_;
   std::set<std::string> known_;
   report::RowsFile file_;
@@ -223,11 +330,78 @@ class Run {
   long long steps_ = 0;
 };
 
+/// Takes cameras and sun from a capture.
+void look_through(const std::string& file, const CapturedMaps& capture, Sweep& sweep) {
+  const auto refuse = [&](const std::string& why) {
+    throw std::runtime_error("--capture " + file + ": " + why);
+  };
+  const Camera& first = capture.frames.front().camera;
+  const double aspect = (first.right - first.left) / (first.top - first.bottom),
+               wanted = static_cast<double>(sweep.width) / sweep.height;
+  constexpr double kSquare = 0.01;
+  if (std::abs(aspect / wanted - 1.0) > kSquare)
+    refuse("--size " + std::to_string(sweep.width) + "x" + std::to_string(sweep.height) +
+           " would not have square pixels; width over height is " + std::to_string(aspect));
+  const auto steps = std::max<std::size_t>(capture.frames.size() - 1, 1);
+  if (static_cast<std::size_t>(sweep.frames) > steps)
+    refuse("--frames " + std::to_string(sweep.frames) + ": it has " + std::to_string(steps) +
+           " frames that another precedes");
+  for (const CapturedMaps::Frame& frame : capture.frames) {
+    sweep.cameras.push_back(frame.camera);
+    sweep.cameras.back().width = sweep.width;
+    sweep.cameras.back().height = sweep.height;
+  }
+  const glm::dvec3& travel = capture.light_direction;
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  sweep.light = {LightKind::sun, std::asin(std::clamp(-travel.y, -1.0, 1.0)) / kDegree,
+                 std::atan2(-travel.x, travel.z) / kDegree};
+  std::array<char, 17> hash{};
+  ExactKey key(kFnvBasis);
+  for (const Camera& camera : sweep.cameras) key.add(camera);
+  std::snprintf(hash.data(), hash.size(), "%016" PRIx64, key.hash());
+  sweep.camera_text = "capture " + fs::path(file).filename().string() + " " + hash.data();
+}
+
+/// Maps and masks of others, behind gnomon's own techniques. An entry that cannot be read is named.
+void add_entries(const CompareRequest& request, Sweep& sweep, RefusedEntries& refused) {
+  for (const EntryWord& word : request.entries) {
+    try {
+      if (fs::is_directory(word.path)) {
+        sweep.entries.push_back(given_entry(word.name, load_given_masks(word.path)));
+        continue;
+      }
+      const auto captured = load_captured_maps(word.path);
+      for (const TechniqueFilter& filter : request.filters) {
+        if (filter.irregular_samples == 0)
+          sweep.entries.push_back(captured_entry(word.name, filter, captured));
+      }
+    } catch (const std::runtime_error& error) {
+      refused.refuse(word.name, {}, error.what());
+    }
+  }
+}
+
 /// The sweep of a request, numbered behind those before it.
-Part part_of(const CompareRequest& request, const std::vector<Part>& before) {
+Part part_of(const CompareRequest& request, const std::vector<Part>& before, RefusedEntries& refused) {
   Part part{&request, {}, {}};
   try {
-    part.sweep = make_sweep(request);
+    if (!request.capture.empty()) {
+      if (!request.camera.path.empty() || !request.camera.of_file.empty() || request.camera.eye)
+        throw std::runtime_error("--capture: not with --path, --camera or --eye, which place another");
+      const auto capture = load_captured_maps(request.capture);
+      Sweep looked;
+      static_cast<Measuring&>(looked) = request;
+      look_through(request.capture, *capture, looked);
+      CompareRequest lit = request;
+      lit.light = looked.light;
+      part.sweep = make_sweep(lit);
+      part.sweep.cameras = looked.cameras;
+      part.sweep.camera_text = looked.camera_text;
+    } else {
+      part.sweep = make_sweep(request);
+    }
+    part.sweep.view = request.view;
+    add_entries(request, part.sweep, refused);
   } catch (const std::runtime_error& error) {
     if (request.where.empty()) throw;
     throw std::runtime_error(request.where + ": " + error.what());
@@ -245,12 +419,14 @@ Compared compare(std::span<const CompareRequest> requests) {
   const CompareRequest& first = requests.front();
   const std::string& out = first.out;
   std::vector<Part> parts;
-  for (const CompareRequest& request : requests) parts.push_back(part_of(request, parts));
+  RefusedEntries refused;
+  for (const CompareRequest& request : requests) parts.push_back(part_of(request, parts, refused));
   check_folder("--out", out);
   std::optional<report::ResultsLock> lock;  // before rows are read: another process may be writing them
   if (fs::is_directory(out)) lock.emplace(out);
   for (Part& part : parts) {
     part.hashes = hashes_of(part.sweep);
+    check_hashes(part);
     check_animations(part.sweep);
   }
   std::set<std::string> known = known_keys(parts, first.resume);
@@ -265,206 +441,10 @@ Compared compare(std::span<const CompareRequest> requests) {
     known = known_keys(parts, first.resume);
   }
   watch_interrupts();
-  Run(parts, machine(context->info()), std::move(known), std::move(*lock)).all();
+  Run(parts, machine(context->info()), std::move(known), std::move(*lock), refused).all();
   // A shard's report would show a part as if it were the whole.
   return {(fs::path(out) / report::kRowsFile).string(),
-          first.shards == 1 ? report::write_report(out).string() : std::string()};
-}
-
-namespace {
-
-/// By name: whether the option stands on the command line.
-using Given = std::map<std::string, bool>;
-
-int run_compare(const CompareRequest& request, const OptionsOf& options_of, const Given& given) {
-  const bool is_study = request.scenes.size() == 1 && is_study_file(request.scenes.front());
-  for (const auto& [option, stands] : given) {
-    if (is_study && stands && option != "SCENE" && !stands_beside_study(option))
-      throw std::runtime_error(option + ": not beside a study, whose file has it as a field");
-  }
-  const std::vector<CompareRequest> requests =
-      is_study ? read_study(request.scenes.front(), request, options_of) : std::vector{request};
-  const auto [rows, page] = compare(requests);
-  if (request.json) {
-    print_line(nlohmann::json{{"rows", rows}, {"report", page}}.dump());
-  } else {
-    print_line("rows:   " + rows);
-    if (!page.empty()) print_line("report: " + page);
-  }
-  flush_output();
-  return 0;
-}
-
-/// The product that is gone through.
-std::vector<Option> technique_options(CompareRequest& request) {
-  return {
-      {.name = "--warps",
-       .target = word_list(request.warps, read_warps, {"none", "lispsm", "optimal"}),
-       .help = "perspective warps, or all; auto lets the plan choose; behind a colon a shape or an "
-               "objective, as in optimal:picture",
-       .names = names_in(all_warps(), {"all", "auto"})},
-      {.name = "--shapes",
-       .target = word_list(request.shapes, read_shapes, {"linear"}),
-       .help = "how texels lie, or all; rectilinear plans with the points that a frame shows",
-       .names = names_in(all_shapes(), {"all"})},
-      {.name = "--splits",
-       .target = word_list(request.splits, read_splits, {"auto"}),
-       .help = "how receivers are divided among maps; listed below",
-       .names = split_names()},
-      {.name = "--near-hint",
-       .target = &request.near_hint,
-       .help = "view depth, world units, from which the error of split pseudo_near counts; 0: the near plane",
-       .range = {{0.0, 1e30}}},
-      {.name = "--fits",
-       .target = word_list(request.fits, read_fits, {"tight"}),
-       .help = "fits of a map: tight, stable",
-       .names = {"tight", "stable"}},
-      {.name = "--cascades",
-       .target = word_list(request.cascades, read_cascades, {"1", "4"}),
-       .help = "numbers of shadow maps along the view"},
-      {.name = "--filters",
-       .target = word_list(request.filters, read_filters, {"all"}),
-       .help = "filters, with options as in vsm:radius=3; all, irregular (exact; :samples=8), identifiers",
-       .names = names_in(render::all_filters(), {"all", std::string(kIrregular), std::string(kIdentifiers)})},
-      {.name = "--layers",
-       .target = word_list(request.layers, read_layers, {"front"}),
-       .help = "depths that the maps store: front, back, second, ..., or all; listed below",
-       .names = layer_names({"all"})},
-      {.name = "--map-sizes",
-       .target = word_list(request.map_sizes, read_map_sizes, {"1024"}),
-       .help = "sizes of a map, texels along each side"},
-      {.name = "--pages",
-       .target = word_list(request.pages, read_page_policies, {}),
-       .help = "page policies, or all: pages of as many texels as the maps, beside them; listed below",
-       .names = names_in(all_page_policies(), {"all"})},
-      {.name = "--page-sizes",
-       .target = word_list(request.page_sizes, read_page_sizes, {"128"}),
-       .help = "sizes of a page, texels along each side: 64, 128, 256"},
-      {.name = "--page-target",
-       .target = &request.page_target,
-       .help = "error m that pages are opened for; 0: the least that the pool holds",
-       .range = {{0.0, 1e6}}}};
-}
-
-Option shard_option(CompareRequest& request) {
-  const auto set = [&request](const std::string& word) {
-    constexpr std::size_t kMaxShards = 1'000'000;
-    std::size_t shard = 0, shards = 0;
-    const char* const end = word.data() + word.size();
-    const auto [slash, no_shard] = std::from_chars(word.data(), end, shard);
-    const bool parted = no_shard == std::errc{} && slash != end && *slash == '/';
-    const auto [last, no_shards] = std::from_chars(parted ? slash + 1 : end, end, shards);
-    if (!parted || no_shards != std::errc{} || last != end || shard < 1 || shard > shards ||
-        shards > kMaxShards)
-      throw std::runtime_error("--shard " + word + ": wants I/N with 1 <= I <= N, as in 2/8");
-    request.shard = shard - 1;
-    request.shards = shards;
-    return true;
-  };
-  return {.name = "--shard",
-          .target = ParsedWord{set, "1/1"},
-          .help = "I/N: measure only part I of N; gnomon merge joins the parts"};
-}
-
-/// What it is measured on.
-std::vector<Option> frame_options(CompareRequest& request) {
-  return {{.name = "--frames",
-           .target = &request.frames,
-           .help = "frames along the scene's camera path",
-           .range = {{1, 100'000}}},
-          {.name = "--animation",
-           .target = &request.animation,
-           .help = "animation that the scenes play while frames pass, by name or number",
-           .word = "NAME"},
-          {.name = "--pixel-samples",
-           .target = &request.pixel_samples,
-           .help = "rays through each pixel, for errors over whole pixels and twinkling; 0: none",
-           .range = {{0, 64}}},
-          {.name = "--rounds",
-           .target = &request.rounds,
-           .help = "timings of each technique per frame",
-           .range = {{1, 10'000}}},
-          map_passes_option(request.map_passes),
-          {.name = "--visible-depths",
-           .target = &request.visible_depths,
-           .help = "plan with the view depths that the frame shows"},
-          {.name = "--visible-points",
-           .target = &request.visible_points,
-           .help = "plan with points of the surfaces that the frame shows, where the split names no others"},
-          size_option(request.width, request.height),
-          {.name = "--out",
-           .target = &request.out,
-           .help = "folder for results and report",
-           .completion = Completion::folders},
-          shard_option(request),
-          context_option(request.context)};
-}
-
-std::vector<Option> light_and_camera_options(CompareRequest& request) {
-  std::vector<Option> options = light_options(request.light);
-  for (Option& option : camera_options(request.camera)) options.push_back(std::move(option));
-  return options;
-}
-
-/// What the machine may give.
-std::vector<Option> limit_options(CompareRequest& request) {
-  return {{.name = "--map-memory-mib",
-           .target = &request.map_memory_mib,
-           .help = "memory for a technique's maps, MiB; larger maps are halved until they fit; 0: no limit",
-           .range = {{0.0, 1e9}}},
-          max_triangles_option(request.max_triangles),
-          {.name = "--resume", .target = &request.resume, .help = "continue with the results in --out"},
-          {.name = "--json", .target = &request.json, .help = "print a summary as one line of JSON"}};
-}
-
-/// What the lists take.
-std::string compare_footer() {
-  return "Lists take commas or spaces. Every combination of the lists is measured once. Each result is on "
-         "the disk before the next frame begins: after a crash, --resume continues. Errors compare the "
-         "shadow mask with exact rays.\n\n"
-         "Warps: " +
-         any_of_text(names_in(all_warps(), {"auto"})) + ".\nSplits: " + any_of_text(split_names()) +
-         ", each with :finest, :visible_depths, :coarse_depths, :visible_points, :shadow_edges or :budget "
-         "(maps share their texels) behind "
-         "it, and "
-         "frustum_faces with :slices=K for up to K maps along each side face" +
-         ".\nPages: " + any_of_text(names_in(all_page_policies())) +
-         ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
-         "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
-         "\nLayers: " + any_of_text(layer_names()) +
-         ", each with :linear behind it for depths even along the light. gnomon bias and docs/bias.md "
-         "compare them." +
-         "\nFilters: " + any_of_text(names_in(render::all_filters())) +
-         ". gnomon filters NAME prints the options of one. " + std::string(kIrregular) +
-         " takes no filter: casters are tested against each pixel, for exact hard shadows at their price. " +
-         std::string(kIdentifiers) +
-         " compares who is nearest in place of how near; :of=triangle numbers triangles in place of "
-         "instances, neighbours=1 takes the texels around as well.\n";
-}
-
-}  // namespace
-
-namespace {
-
-std::vector<Option> options_of(CompareRequest& request) {
-  request.out = "out/compare";
-  request.pixel_samples = report::kPixelSamples;
-  std::vector<Option> options{scenes_option(request, "builtin:NAME or glTF files; or one study.json", true)};
-  for (const auto& part : {technique_options, frame_options, light_and_camera_options, limit_options}) {
-    for (Option& option : part(request)) options.push_back(std::move(option));
-  }
-  return options;
-}
-
-}  // namespace
-
-std::function<int()> declare_compare(Arguments& arguments) {
-  const auto request = std::make_shared<CompareRequest>();
-  const auto given = std::make_shared<Given>();
-  arguments.options = options_of(*request);
-  for (Option& option : arguments.options) option.given = &(*given)[option.name];
-  arguments.footer = compare_footer();
-  return [request, given] { return run_compare(*request, options_of, *given); };
+          first.shards == 1 ? report::write_report(out).string() : std::string(), refused.lines()};
 }
 
 }  // namespace gnomon::tool

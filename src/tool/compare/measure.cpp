@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cmath>
 #include <glm/common.hpp>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <random>
@@ -13,6 +14,7 @@
 #include <utility>
 #include <variant>
 
+#include "exact_results.hpp"
 #include "float_channel.hpp"
 #include "planned.hpp"
 
@@ -20,6 +22,8 @@ namespace gnomon::tool {
 namespace {
 
 using render::Pass;
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 render::FrameOptions frame_options(bool pictures) {
   render::FrameOptions options;
@@ -52,20 +56,38 @@ glm::dvec2 wider(const glm::dvec2& kernel, const glm::dvec2& pixel) noexcept {
   return glm::max(kernel, glm::min(pixel, render::kMaxRadiusTexels));
 }
 
+/// Through an ideal filter, whose kernel lies at each facing pixel as `axes_at` says.
+std::vector<float> filtered(const Stage& stage, const FrameTruth& truth, trace::KernelShape shape,
+                            int samples, const std::function<trace::KernelAxes(std::size_t)>& axes_at) {
+  std::vector<trace::KernelAxes> axes(truth.points.pixels.size());
+  for (std::size_t i = 0; i < axes.size(); ++i)
+    if (truth.points.pixels[i].state == trace::PixelState::facing) axes[i] = axes_at(i);
+  ExactKey key = stage.exact().key("filtered").add(truth.points).add(static_cast<int>(shape)).add(samples);
+  for (const trace::KernelAxes& a : axes) key.add(a.x).add(a.y);
+  return stage.exact().values(key, axes.size(), [&] {
+    return trace::filtered_reference(
+               stage.tracer(), truth.points, stage.light(), shape, [&](std::size_t i) { return axes[i]; },
+               samples)
+        .pixels;
+  });
+}
+
 std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const Planned& plan,
                               const SweepEntry& entry, const std::vector<float>& maps) {
   if (entry.irregular_samples == 1) return truth.lit;
   if (entry.irregular()) {
     // As many as make the mean's own error small beside that of the most samples a pixel can have.
     constexpr int kSamples = 256;
-    return trace::filtered_reference(
-               stage.tracer(), truth.points, stage.light(), trace::KernelShape::box,
-               [&](std::size_t pixel) { return trace::facet_axes(truth.camera, truth.points.pixels[pixel]); },
-               kSamples)
-        .pixels;
+    return filtered(stage, truth, trace::KernelShape::box, kSamples, [&](std::size_t pixel) {
+      return trace::facet_axes(truth.camera, truth.points.pixels[pixel]);
+    });
   }
   const double light = light_radius(entry.filter, stage.light());
-  if (light > 0.0) return trace::area_reference(stage.tracer(), truth.points, stage.light(), light).pixels;
+  if (light > 0.0) {
+    return stage.exact().values(
+        stage.exact().key("area").add(truth.points).add(light), truth.points.pixels.size(),
+        [&] { return trace::area_reference(stage.tracer(), truth.points, stage.light(), light).pixels; });
+  }
   // Stored texels are blurred by a Gauss that is cut at two deviations, the box's half side: 0.88 of a
   // deviation is what is left of it.
   constexpr double kDeviationOfSide = 0.44;
@@ -89,9 +111,8 @@ std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const
     const trace::KernelAxes texel = trace::texel_axes(*map, point, 1.0);
     return trace::KernelAxes{texel.x * half_sides.x, texel.y * half_sides.y};
   };
-  return trace::filtered_reference(stage.tracer(), truth.points, stage.light(),
-                                   gauss ? trace::KernelShape::gauss : trace::KernelShape::box, axes)
-      .pixels;
+  return filtered(stage, truth, gauss ? trace::KernelShape::gauss : trace::KernelShape::box,
+                  trace::kSoftSamples, axes);
 }
 
 /// Pixels in the lists of an irregular frame.
@@ -138,73 +159,6 @@ void count_savings(const render::FrameStats& stats, PruneSource source, report::
   }
 }
 
-/// What a camera shows of the scene as it is posed.
-trace::SurfacePoints points_through(Stage& stage, const SweepEntry& entry, const Camera& camera) {
-  render::Renderer& renderer = stage.renderer();
-  renderer.draw(stage.plan(entry, camera), camera, stage.filter(entry), frame_options(false));
-  return trace::surface_points(stage.tracer(), camera, stage.light(), renderer.positions(),
-                               renderer.normals());
-}
-
-/// What the frame's camera shows, and its hard shadow.
-void trace_frame(Stage& stage, const SweepEntry& entry, FrameTruth& truth) {
-  truth.points = points_through(stage, entry, truth.camera);
-  truth.hard = trace::hard_reference(stage.tracer(), truth.points, stage.light());
-}
-
-/// 1 lit, 0 in shadow, -1 undecided.
-std::vector<float> values_of(const trace::HardReference& hard) {
-  std::vector<float> values;
-  values.reserve(hard.pixels.size());
-  for (const trace::Verdict verdict : hard.pixels)
-    values.push_back(verdict == trace::Verdict::lit      ? 1.0f
-                     : verdict == trace::Verdict::shadow ? 0.0f
-                                                         : -1.0f);
-  return values;
-}
-
-/// View depths of the surfaces; 0: none.
-std::vector<float> depths_of(const trace::SurfacePoints& points, const Camera& camera) {
-  const glm::dvec3 forward = camera_axes(camera).forward;
-  std::vector<float> depths;
-  depths.reserve(points.pixels.size());
-  for (const trace::SurfacePoint& point : points.pixels) {
-    const bool surface = point.state != trace::PixelState::sky;
-    depths.push_back(surface ? static_cast<float>(glm::dot(forward, point.position - camera.position))
-                             : 0.0f);
-  }
-  return depths;
-}
-
-/// Pixel of `before` that shows the point which pixel `i` of `after` shows, within the side of a pixel; -1:
-/// none does.
-std::vector<int> seen_before(const trace::SurfacePoints& after, const trace::SurfacePoints& before,
-                             const Camera& camera_before) {
-  const CameraAxes axes = camera_axes(camera_before);
-  std::vector<int> seen_at(after.pixels.size(), -1);
-  for (std::size_t i = 0; i < after.pixels.size(); ++i) {
-    const trace::SurfacePoint& point = after.pixels[i];
-    if (point.state != trace::PixelState::facing) continue;
-    const glm::dvec3 way = point.position - camera_before.position;
-    const double depth = glm::dot(axes.forward, way), scale = camera_before.orthographic ? 1.0 : depth;
-    if (!(depth > 0.0)) continue;
-    const double width = (camera_before.right - camera_before.left) * scale,
-                 height = (camera_before.top - camera_before.bottom) * scale;
-    const double column =
-        std::floor((glm::dot(axes.right, way) - camera_before.left * scale) / width * before.width);
-    const double row =
-        std::floor((camera_before.top * scale - glm::dot(axes.up, way)) / height * before.height);
-    if (!(column >= 0.0 && column < before.width && row >= 0.0 && row < before.height)) continue;
-    const int at = static_cast<int>(row) * before.width + static_cast<int>(column);
-    const trace::SurfacePoint& found = before.pixels[static_cast<std::size_t>(at)];
-    if (found.state != trace::PixelState::facing) continue;
-    // Off the plane, not along it: a pixel that grazes its surface is long.
-    const double side = std::max(width / before.width, height / before.height);
-    if (std::abs(glm::dot(point.normal, found.position - point.position)) <= side) seen_at[i] = at;
-  }
-  return seen_at;
-}
-
 /// `values` of the pixels that `seen_at` names; `none` where it names none.
 std::vector<float> at_pixels(const std::vector<float>& values, const std::vector<int>& seen_at, float none) {
   std::vector<float> found(seen_at.size(), none);
@@ -214,15 +168,30 @@ std::vector<float> at_pixels(const std::vector<float>& values, const std::vector
 }
 
 /// What whole pixels hold of `mask`, and of its change since `mask_before`, the frame before through its own
-/// camera.
+/// camera; empty: not known.
 report::PixelErrors errors_of_pixels(const FrameTruth::Pixels& pixels, const std::vector<float>& mask,
                                      const std::vector<float>& mask_before) {
   report::PixelErrors errors = report::pixel_errors(mask, pixels.light, pixels.several);
+  if (mask_before.empty()) {
+    errors.twinkle = errors.twinkle_tracked = kUnknown;
+    return errors;
+  }
   errors.twinkle = report::twinkling(mask_before, mask, pixels.light_before, pixels.light);
   errors.twinkle_tracked =
       report::twinkling(at_pixels(mask_before, pixels.seen_at, 0.0f), mask,
                         at_pixels(pixels.light_before, pixels.seen_at, -1.0f), pixels.light);
   return errors;
+}
+
+/// All errors that masks alone decide. `soft`: the ideal filter's, negative where it is not known.
+void set_errors(const FrameTruth& truth, const FrameMasks& masks, const std::vector<float>& soft,
+                report::Row& row) {
+  row.errors = report::mask_errors(masks.mask, truth.lit, soft);
+  row.undecided_pixels = truth.undecided;
+  row.flips = masks.moved.empty()
+                  ? kUnknown
+                  : report::excess_flips(masks.moved, masks.mask, truth.lit_before, truth.lit);
+  if (!truth.pixels.light.empty()) row.pixel = errors_of_pixels(truth.pixels, masks.mask, masks.before);
 }
 
 /// Samples of one technique over the rounds.
@@ -260,59 +229,19 @@ void time_visit(Planned& plan, const Camera& camera, Samples* samples) {
 
 }  // namespace
 
-FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry, int pixel_samples) {
-  FrameTruth truth;
-  truth.frame = frame;
-  truth.camera = stage.camera(frame);
-  truth.before = stage.camera_before(frame);
-  stage.see(frame);
-  const bool over_pixels = pixel_samples > 0;
-  trace::SurfacePoints points_before;
-  if (stage.plays() || over_pixels) {
-    stage.go_to(frame, Stage::At::before);
-    if (stage.plays()) stage.retrace();
-    if (over_pixels) {
-      points_before = points_through(stage, entry, truth.before);
-      truth.pixels.light_before =
-          trace::pixel_reference(stage.tracer(), truth.before, points_before, stage.light(), pixel_samples)
-              .pixels;
-    }
-    if (stage.plays()) {
-      trace_frame(stage, entry, truth);
-      truth.lit_before = values_of(truth.hard);
-    }
-    stage.go_to(frame, Stage::At::frame);
-    if (stage.plays()) stage.retrace();
-  }
-  trace_frame(stage, entry, truth);
-  if (over_pixels) {
-    trace::PixelReference pixels =
-        trace::pixel_reference(stage.tracer(), truth.camera, truth.points, stage.light(), pixel_samples);
-    truth.pixels.light = std::move(pixels.pixels);
-    truth.pixels.several = std::move(pixels.several);
-    truth.pixels.seen_at = seen_before(truth.points, points_before, truth.before);
-  }
-  truth.lit = values_of(truth.hard);
-  if (!stage.plays()) truth.lit_before = truth.lit;
-  truth.depths = depths_of(truth.points, truth.camera);
-  truth.undecided = static_cast<std::uint64_t>(
-      std::count(truth.hard.pixels.begin(), truth.hard.pixels.end(), trace::Verdict::undecided));
-  return truth;
-}
-
-void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
-                    FramePictures* drawn) {
+FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
+                          FramePictures* drawn) {
+  FrameMasks masks;
   render::Renderer& renderer = stage.renderer();
   stage.go_to(truth.frame, Stage::At::before);
   Planned before(stage, entry, truth.before);
-  std::vector<float> picture_before;
   if (!truth.pixels.light.empty()) {
     before.draw(truth.before, frame_options(false));
-    picture_before = channel(renderer.mask(), 0);
+    masks.before = channel(renderer.mask(), 0);
   }
   before.move_eye(truth.camera);
   before.draw(truth.camera, frame_options(false));
-  const std::vector<float> mask_before = channel(renderer.mask(), 0);
+  masks.moved = channel(renderer.mask(), 0);
 
   stage.go_to(truth.frame, Stage::At::frame);
   Planned plan(stage, entry, truth.camera);
@@ -321,7 +250,8 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
                              std::string(plan.invalid_field()));
   const render::FrameStats stats = plan.draw(truth.camera, frame_options(true));
   const FloatImage mask_image = renderer.mask();
-  const std::vector<float> mask = channel(mask_image, 0), maps = channel(mask_image, 1);
+  const std::vector<float> maps = channel(mask_image, 1);
+  masks.mask = channel(mask_image, 0);
   if (entry.irregular() && !stats.irregular)
     throw std::runtime_error(row.technique.name() + ": the driver's storage buffers hold no list of " +
                              std::to_string(row.width) + "x" + std::to_string(row.height) + " pixels");
@@ -330,17 +260,15 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
               : light_radius(entry.filter, stage.light()) > 0.0 ? "area"
                                                                 : "filtered";
   const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
-  row.errors = report::mask_errors(mask, truth.lit, soft);
-  row.undecided_pixels = truth.undecided;
-  row.flips = report::excess_flips(mask_before, mask, truth.lit_before, truth.lit);
-  if (!truth.pixels.light.empty()) row.pixel = errors_of_pixels(truth.pixels, mask, picture_before);
+  set_errors(truth, masks, soft, row);
   row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
   if (!entry.by_pages()) row.expected_wrong = plan.expected({truth.camera, truth.lit, truth.depths}).share();
   count_costs(stats, plan, entry, row);
   if (entry.irregular()) {
     row.costs.lists = list_lengths(renderer);
     constexpr std::uint64_t kEntryBytes = 16;  // of a list; its texel has as many as one of a depth map
-    row.costs.map_bytes += kEntryBytes * mask.size() * static_cast<std::uint64_t>(entry.irregular_samples);
+    row.costs.map_bytes +=
+        kEntryBytes * masks.mask.size() * static_cast<std::uint64_t>(entry.irregular_samples);
   }
   row.plan_status = to_string(plan.status());
   for (const Omission& omission : plan.omitted()) {
@@ -348,15 +276,25 @@ void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& ent
     row.left_out.push_back({text.what.data(), text.why.data(), omission.saves_texels});
   }
   count_savings(stats, PruneSource::this_frame, row);
-  if (drawn != nullptr) *drawn = {renderer.image(), plan.heat_map(mask_image), mask};
+  if (drawn != nullptr) *drawn = {renderer.image(), plan.heat_map(mask_image), masks.mask};
   // Tight maps are others in every frame, and so are their pages.
-  if (entry.plan.fit == Fit::tight) return;
+  if (entry.plan.fit == Fit::tight) return masks;
   render::FrameOptions all_rules = frame_options(false);
   all_rules.prune = {};
   stage.go_to(truth.frame, Stage::At::before);
   before.draw(truth.camera, all_rules);
   stage.go_to(truth.frame, Stage::At::frame);
   count_savings(plan.draw(truth.camera, all_rules), PruneSource::last_frame, row);
+  return masks;
+}
+
+void measure_given(const FrameTruth& truth, const GivenMasks& given, report::Row& row, FrameMasks& masks) {
+  const GivenMasks::Frame& frame = *masks_of(given, row);
+  masks = read_masks(given, frame, row.width, row.height);
+  row.truth = "none";
+  row.plan_status = to_string(PlanStatus::ok);
+  set_errors(truth, masks, std::vector<float>(masks.mask.size(), -1.0f), row);
+  row.times.total_ms = {frame.ms, frame.ms_low, frame.ms_high};
 }
 
 std::vector<report::Times> measure_times(Stage& stage, const Camera& camera,

@@ -1,37 +1,14 @@
 // What one technique does on one frame: its errors against the truth, what it costs, and how long it takes.
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <vector>
 
+#include "entry_file.hpp"
+#include "frame_truth.hpp"
 #include "gnomon/report/row.hpp"
-#include "stage.hpp"
 
 namespace gnomon::tool {
-
-/// What all techniques of a frame are compared with.
-struct FrameTruth {
-  int frame = 0;
-  Camera camera, before;
-  trace::SurfacePoints points;
-  trace::HardReference hard;
-  std::vector<float> lit;  ///< the hard answer as 1 and 0, -1 where there is none
-  /// The same one step of a viewer earlier, through the same pixels; equal where the scene is at rest.
-  std::vector<float> lit_before;
-  std::uint64_t undecided = 0;
-  std::vector<float> depths;  ///< view depths of the surfaces, 0: none
-  /// The light over whole pixels; empty where it was not asked for.
-  struct Pixels {
-    std::vector<float> light, light_before;  ///< of the frame, and of the one before through its own camera
-    std::vector<std::uint8_t> several;       ///< 1: the pixel shows several surfaces
-    std::vector<int> seen_at;  ///< pixel of the frame before that shows the same point; -1: none does
-  };
-  Pixels pixels = {};
-};
-/// Draws the frame once with `entry` to learn what is visible, and traces it. `pixel_samples`: rays through
-/// each pixel, for FrameTruth::pixels; 0: none.
-[[nodiscard]] FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry, int pixel_samples = 0);
 
 /// A technique's pictures of the frame, for those who look.
 struct FramePictures {
@@ -40,9 +17,13 @@ struct FramePictures {
 };
 
 /// Fills in the row's errors, aliasing, costs, status and what was left out; the pictures where `drawn` is
-/// not nullptr.
-void measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
-                    FramePictures* drawn);
+/// not nullptr. Returns the masks.
+FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
+                          FramePictures* drawn);
+
+/// The same errors of masks that others drew, as far as they can be known: nothing of kernels and maps. Fills
+/// in their times.
+void measure_given(const FrameTruth& truth, const GivenMasks& given, report::Row& row, FrameMasks& masks);
 
 /// Times the entries one after the other, in a new random order in every round; the first round warms up and
 /// is dropped. `done` is called after each measurement. One result per entry, in their order.

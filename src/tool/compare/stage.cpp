@@ -5,15 +5,19 @@
 #include <cmath>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "animation_words.hpp"
 #include "float_channel.hpp"
 #include "gnomon/study/expected_error.hpp"
+#include "moved_eye.hpp"
 
 namespace gnomon::tool {
 
-Stage::Stage(const Sweep& sweep, const std::string& scene)
-    : sweep_(sweep), view_(scene, sweep.light, sweep.camera, limits_of_triangles(sweep.max_triangles)) {
+Stage::Stage(const Sweep& sweep, const std::string& scene, ExactResults exact)
+    : sweep_(sweep),
+      exact_(std::move(exact)),
+      view_(scene, sweep.light, sweep.camera, limits_of_triangles(sweep.max_triangles)) {
   if (!sweep.animation.empty()) {
     animation_ = find_animation(view_.scene().motion, sweep.animation);
     if (animation_ < 0)
@@ -46,6 +50,7 @@ void Stage::pose_before(int frame, int viewer_frames) {
   const Animation& played = at_rest_.motion.animations[static_cast<std::size_t>(animation_)];
   const double seconds = animation_seconds(frame) - kViewerSeconds * viewer_frames;
   (void)pose(at_rest_, animation_, looped_time(played, seconds), pose_);
+  exact_.pose(seconds);
   view_.take(pose_);
   if (!renderer_->apply_pose(pose_)) throw std::runtime_error("the animation's pose does not fit the scene");
 }
@@ -59,6 +64,10 @@ const Stage::View* Stage::view(const Camera& camera) const noexcept {
 }
 
 ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
+  if (entry.captured != nullptr) {
+    const CapturedMaps::Frame& frame = *entry.captured->at(camera);
+    return moved_eye(frame.plan, frame.camera, camera);
+  }
   const View* const view = this->view(camera);
   gnomon::View seen = camera;
   if (view != nullptr && entry.points == PlanPoints::visible) seen.points_world = view->points;
@@ -113,6 +122,13 @@ std::vector<glm::dvec3> Stage::edges_through(const Camera& camera) {
   return edges;
 }
 
+std::size_t Stage::captured_frame(int frame) const noexcept {
+  const std::size_t steps = sweep_.cameras.size() - 1;
+  // The middle of one of so many equal parts, as along a path; the first has no frame before it.
+  const double at = (frame + 0.5) / sweep_.frames * static_cast<double>(steps);
+  return steps == 0 ? 0 : 1 + static_cast<std::size_t>(at);
+}
+
 Stage::View Stage::view_through(const Camera& camera) {
   render::FrameOptions surfaces;
   surfaces.aliasing = surfaces.heat_map = surfaces.cascade_tint = surfaces.time_passes = false;
@@ -135,10 +151,15 @@ Stage::View Stage::view_through(const Camera& camera) {
 }
 
 Camera Stage::camera(int frame) const noexcept {
+  if (!sweep_.cameras.empty()) return sweep_.cameras[captured_frame(frame)];
   return view_.camera(frame, sweep_.frames, sweep_.width, sweep_.height);
 }
 
 Camera Stage::camera_before(int frame) const noexcept {
+  if (!sweep_.cameras.empty()) {
+    const std::size_t at = captured_frame(frame);
+    return sweep_.cameras[at > 0 ? at - 1 : 0];
+  }
   return view_.camera_before(frame, sweep_.frames, sweep_.width, sweep_.height);
 }
 

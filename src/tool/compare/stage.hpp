@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "exact_results.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/coarse_view.hpp"
 #include "gnomon/scene/pose.hpp"
@@ -19,7 +20,7 @@ class Stage {
  public:
   /// Throws SceneError, RenderError, TraceError, and std::runtime_error where the scene has no such
   /// animation.
-  Stage(const Sweep& sweep, const std::string& scene);
+  Stage(const Sweep& sweep, const std::string& scene, ExactResults exact = {});
 
   /// One frame of a sweep, and what a viewer at 60 Hz saw before it.
   enum class At : std::uint8_t { before, frame };
@@ -41,6 +42,8 @@ class Stage {
   [[nodiscard]] Camera camera(int frame) const noexcept;
   [[nodiscard]] Camera camera_before(int frame) const noexcept;
   [[nodiscard]] const Light& light() const noexcept { return view_.light(); }
+  /// Results of rays that the disk may have already.
+  [[nodiscard]] const ExactResults& exact() const noexcept { return exact_; }
   [[nodiscard]] const trace::Tracer& tracer() const noexcept { return *tracer_; }
   [[nodiscard]] render::Renderer& renderer() noexcept { return *renderer_; }
   [[nodiscard]] render::PreparedFilter filter(const SweepEntry& entry) {
@@ -67,11 +70,14 @@ class Stage {
   [[nodiscard]] const Scene& scene() const noexcept { return view_.scene(); }
 
  private:
+  /// Which of the capture's frames it is.
+  [[nodiscard]] std::size_t captured_frame(int frame) const noexcept;
   [[nodiscard]] View view_through(const Camera& camera);
   /// Edges of the shadow of the default plan, as a renderer finds them in the mask of a frame.
   [[nodiscard]] std::vector<glm::dvec3> edges_through(const Camera& camera);
 
   const Sweep& sweep_;
+  ExactResults exact_;
   mutable CoarseView coarse_;  ///< scratch
   std::vector<View> views_;
   SceneView view_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <stdexcept>
 
 #include "base/bounded_file.hpp"
@@ -18,8 +19,11 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kSchema = "gnomon-study/1";
-constexpr std::string_view kOfLine[] = {"--out",  "--resume",  "--shard",
-                                        "--json", "--context", "--map-memory-mib"};
+constexpr std::string_view kOfLine[] = {"--out",     "--resume",         "--shard",       "--json",
+                                        "--context", "--map-memory-mib", "--write-masks", "--exact"};
+
+/// Fields of a view that are no options: what it is called, and what its files are.
+constexpr const char* kOfView[] = {"name", "hash", "licence", "source", "optional"};
 
 [[noreturn]] void refuse(const std::string& field, const std::string& why) {
   throw std::runtime_error(field + ": " + why);
@@ -106,6 +110,38 @@ void set_fields(const std::string& where, const Json& object, const std::vector<
   }
 }
 
+/// What a view is called, and what its files must be.
+void set_manifest(const std::string& before_field, const Json& view, CompareRequest& request,
+                  std::set<std::string>& names) {
+  const auto text = [&](const char* field) {
+    if (!view.contains(field)) return std::string();
+    if (!view[field].is_string() || view[field].get<std::string>().empty())
+      refuse(before_field + field, "needs a text");
+    return view[field].get<std::string>();
+  };
+  request.view = text("name");
+  if (!request.view.empty() && !names.insert(request.view).second)
+    refuse(before_field + "name", "is the name of another view");
+  request.files.hash = text("hash");
+  request.files.licence = text("licence");
+  request.files.source = text("source");
+  if (!view.contains("optional")) return;
+  if (!view["optional"].is_boolean()) refuse(before_field + "optional", "needs true or false");
+  request.files.optional = view["optional"].get<bool>();
+}
+
+/// Names a view whose files need not be there, and are not.
+bool is_left_out(const CompareRequest& request) {
+  if (!request.files.optional) return false;
+  for (const std::string& scene : request.scenes) {
+    std::error_code error;
+    if (scene.starts_with("builtin:") || std::filesystem::exists(scene, error)) continue;
+    warn(request.where + ": " + scene + " is not there, and the view is optional: it is left out");
+    return true;
+  }
+  return false;
+}
+
 Json parsed(const std::filesystem::path& file) {
   constexpr std::uint64_t kMaxBytes = 1u << 20;
   constexpr int kDepth = 8;
@@ -143,13 +179,16 @@ std::vector<CompareRequest> read_study(const std::filesystem::path& file, const 
     refuse(where + "views", "needs a list of objects");
   const Json views = has_views ? study["views"] : Json::array({Json::object()});
   std::vector<CompareRequest> requests(views.size());
+  std::set<std::string> names;
   for (std::size_t i = 0; i < views.size(); ++i) {
     CompareRequest& request = requests[i];
     const std::string of_view = has_views ? "views[" + std::to_string(i) + "]" : "";
     if (!views[i].is_object()) refuse(where + of_view, "needs an object");
     const std::vector<Option> options = options_of(request);
     set_fields(where, study, options, {"schema", "views"});
-    set_fields(where + of_view + (has_views ? "." : ""), views[i], options, {});
+    const std::string before_field = where + of_view + (has_views ? "." : "");
+    set_fields(before_field, views[i], options, {std::begin(kOfView), std::end(kOfView)});
+    set_manifest(before_field, views[i], request, names);
     request.where = file.string() + (has_views ? ": " + of_view : "");
     if (request.scenes.empty()) refuse(where + (has_views ? of_view + "." : "") + "scenes", "is missing");
     request.out = line.out;
@@ -159,7 +198,11 @@ std::vector<CompareRequest> read_study(const std::filesystem::path& file, const 
     request.shards = line.shards;
     request.context = line.context;
     request.map_memory_mib = line.map_memory_mib;
+    request.write_masks = line.write_masks;
+    request.exact = line.exact;
   }
+  if (std::erase_if(requests, is_left_out) > 0 && requests.empty())
+    throw std::runtime_error(where + "no view is left");
   return requests;
 }
 

@@ -326,6 +326,7 @@ std::vector<std::string> fit_to_memory(Sweep& sweep, double map_memory_mib) {
   std::vector<std::string> lines;
   const LightKind light = sweep.light.kind;
   for (SweepEntry& entry : sweep.entries) {
+    if (!entry.technique.entry.empty()) continue;  // of a size that others chose
     if (std::string line = fit_to_memory(entry, light, map_memory_mib); !line.empty())
       lines.push_back(std::move(line));
   }
@@ -348,7 +349,34 @@ int page_capacity(const SweepEntry& entry, LightKind light) noexcept {
   return static_cast<int>(std::clamp(maps * side * side / (slot * slot), 0.0, double{kMaxPages}));
 }
 
+SweepEntry captured_entry(const std::string& name, const TechniqueFilter& filter,
+                          std::shared_ptr<const CapturedMaps> captured) {
+  SweepEntry entry;
+  set_filter(filter, entry);
+  const std::span<const ShadowMap> maps = captured->frames.front().plan.maps();
+  entry.technique.entry = name;
+  entry.technique.cascades = entry.plan.cascades = static_cast<int>(maps.size());
+  entry.technique.map_size = 0;
+  for (const ShadowMap& map : maps)
+    entry.technique.map_size = std::max({entry.technique.map_size, map.width, map.height});
+  entry.plan.resolution.max_size = entry.technique.map_size;
+  entry.captured = std::move(captured);
+  return entry;
+}
+
+SweepEntry given_entry(const std::string& name, std::shared_ptr<const GivenMasks> given) {
+  SweepEntry entry;
+  entry.technique.entry = name;
+  entry.technique.filter = "masks";
+  entry.technique.cascades = entry.technique.map_size = 0;
+  entry.given = std::move(given);
+  return entry;
+}
+
 SweepEntry sweep_entry(const report::Technique& technique) {
+  if (!technique.entry.empty())
+    throw std::runtime_error(technique.name() +
+                             ": gnomon has no plan of it; gnomon compare --entry measures it");
   SweepEntry entry;
   set_filter(technique_filter("--filters", technique.filter), entry);
   if (!technique.layer.empty()) set_layer(technique_layer("--layers", technique.layer), entry);
@@ -365,7 +393,9 @@ SweepEntry sweep_entry(const report::Technique& technique) {
 }
 
 Sweep make_sweep(const SweepRequest& request) {
-  Sweep sweep{request, {}, {}, {}, {}, request.pixel_samples};
+  Sweep sweep;
+  static_cast<Measuring&>(sweep) = request;
+  sweep.pixel_samples = request.pixel_samples;
   check_camera(request.camera);
   sweep.camera_text = camera_text(request.camera);
   sweep.scenes.clear();

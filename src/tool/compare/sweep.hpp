@@ -1,6 +1,7 @@
 // The product of techniques that `gnomon compare` goes through.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/report/row.hpp"
 #include "measuring.hpp"
+#include "others_frames.hpp"
 #include "technique_words.hpp"
 
 namespace gnomon::tool {
@@ -51,6 +53,9 @@ struct SweepEntry {
   bool shares_texels = false;            ///< the maps share the texels of equal ones, as a budget
   PlanPoints points = PlanPoints::none;  ///< given to the plan
   PageOptions pages;                     ///< where by_pages()
+  /// Maps of another engine in place of a plan, and masks that others drew; nullptr: none.
+  std::shared_ptr<const CapturedMaps> captured = nullptr;
+  std::shared_ptr<const GivenMasks> given = nullptr;
 
   /// Drawn by lists of pixels.
   [[nodiscard]] bool irregular() const noexcept { return irregular_samples > 0; }
@@ -65,6 +70,8 @@ struct Sweep : Measuring {
   SweepEntry baseline;                ///< hard x no warp x one map, of the first map size
   std::string camera_text;            ///< of the camera's words, for rows
   int pixel_samples = 0;              ///< rays through each pixel; 0: none
+  std::vector<Camera> cameras;        ///< of a capture, in place of the scenes' paths; empty: none
+  std::string view;                   ///< name in a study, for people; empty: none
   std::uint64_t first_index = 0;      ///< of its rows, where it is part of a study
   std::size_t first_scene = 0;        ///< number of its first scene there
 
@@ -91,6 +98,12 @@ std::vector<std::string> fit_to_memory(Sweep& sweep, double map_memory_mib);
 
 /// As many pages as the texels of the entry's maps hold under this light, borders included.
 [[nodiscard]] int page_capacity(const SweepEntry& entry, LightKind light) noexcept;
+
+/// The maps of an entry with one filter.
+[[nodiscard]] SweepEntry captured_entry(const std::string& name, const TechniqueFilter& filter,
+                                        std::shared_ptr<const CapturedMaps> captured);
+/// The masks of an entry.
+[[nodiscard]] SweepEntry given_entry(const std::string& name, std::shared_ptr<const GivenMasks> given);
 
 /// What a technique's names stand for, but the capacity of its pages. Throws std::runtime_error where one of
 /// them means nothing.

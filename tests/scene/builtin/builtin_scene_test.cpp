@@ -174,7 +174,8 @@ TEST_P(Builtin, the_default_flight_stays_above_ground_and_out_of_solids) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Builtin, ::testing::Values("city", "fence", "hangar", "terrain", "trees"),
+INSTANTIATE_TEST_SUITE_P(Scenes, Builtin,
+                         ::testing::Values("city", "fence", "hangar", "room", "street", "terrain", "trees"),
                          [](const auto& param) { return param.param; });
 
 TEST(BuiltinScenes, the_list_names_each_once_and_each_loads_by_its_name) {
@@ -183,7 +184,8 @@ TEST(BuiltinScenes, the_list_names_each_once_and_each_loads_by_its_name) {
     EXPECT_FALSE(scene.summary.empty());
     names.insert(scene.name);
   }
-  EXPECT_EQ(names, (std::set<std::string_view>{"city", "fence", "glass", "hangar", "terrain", "trees"}));
+  EXPECT_EQ(names, (std::set<std::string_view>{"city", "fence", "glass", "hangar", "room", "street",
+                                               "terrain", "trees"}));
   EXPECT_THROW((void)build_glb("nowhere"), SceneError);
   EXPECT_THROW((void)build_glb(""), SceneError);
 }
