@@ -11,9 +11,9 @@ namespace gnomon::tool {
 
 /// What a study says of the files of a view.
 struct ViewFiles {
-  std::string hash;              ///< of its scenes, as rows have it; empty: any
-  std::string licence, source;   ///< for people
-  bool optional = false;         ///< the view is left out where a file is absent
+  std::string hash;             ///< of its scenes, as rows have it; empty: any
+  std::string licence, source;  ///< for people
+  bool optional = false;        ///< the view is left out where a file is absent
 };
 
 /// A sweep, or a part of one, into a folder.

@@ -136,7 +136,7 @@ bool is_left_out(const CompareRequest& request) {
   for (const std::string& scene : request.scenes) {
     std::error_code error;
     if (scene.starts_with("builtin:") || std::filesystem::exists(scene, error)) continue;
-    warn(request.where + ": " + scene + " is not there, and the view is optional: it is left out");
+    warn(request.where + ": " + scene + " is not there, and the view is optional: it is omitted");
     return true;
   }
   return false;
