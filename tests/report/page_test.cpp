@@ -1,15 +1,20 @@
 // The page and its files, as text: hashes, escapes, charts.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <limits>
 
 #include "chart.hpp"
+#include "charts.hpp"
 #include "expected.hpp"
 #include "front_table.hpp"
 #include "gnomon/report/csv.hpp"
 #include "gnomon/report/page.hpp"
 #include "gnomon/report/rows_file.hpp"
+#include "kinds.hpp"
+#include "latex.hpp"
 #include "ranks.hpp"
 #include "sample_rows.hpp"
 #include "summary.hpp"
@@ -509,6 +514,106 @@ TEST(Page, a_stability_file_that_is_no_json_is_refused_by_name) {
   } catch (const ReportError& error) {
     EXPECT_NE(std::string(error.what()).find("stability.jsonl:2: "), std::string::npos);
   }
+}
+
+TEST(SceneNames, are_short_where_no_other_has_the_same) {
+  EXPECT_EQ(short_scene_name("../models/church/scene.gltf"), "church");
+  EXPECT_EQ(short_scene_name("../models/garage/garage.gltf"), "garage");
+  EXPECT_EQ(short_scene_name("builtin:fence"), "builtin:fence");
+  EXPECT_EQ(short_scene_name("builtin:fence, path far.json 0123456789abcdef"), "builtin:fence, far.json");
+  EXPECT_EQ(short_scene_name("builtin:fence, eye 0,1,2 target 3,4,5"),
+            "builtin:fence, eye 0,1,2 target 3,4,5");
+  std::vector<Row> rows(3, sample_row(0));
+  rows[0].scene = "a/box.glb";
+  rows[1].scene = "b/box.glb";
+  rows[2].scene = "c/hall.glb";
+  EXPECT_EQ(summarize(rows).titles,
+            (std::vector<std::string>{"all scenes", "a/box.glb", "b/box.glb", "hall"}));
+  rows[1].view = "box: another";
+  EXPECT_EQ(summarize(rows).scenes[2], "box: another");
+}
+
+TEST(Latex, escapes_all_that_has_a_meaning) {
+  EXPECT_EQ(latex_text("a_b 5 % & {x} \\ ~^#$"),
+            "a\\_b 5 \\% \\& \\{x\\} \\textbackslash{} \\textasciitilde{}\\textasciicircum{}\\#\\$");
+  EXPECT_EQ(latex_text("\xC2\xB5s\n"), "?s ");
+}
+
+TEST(Kinds, name_the_least_error_and_the_best_of_the_other_filters) {
+  std::vector<Row> rows;
+  for (int view = 0; view < 8; ++view) {
+    for (const char* filter : {"hard", "pcf", "vsm"}) {
+      Row row = sample_row(0);
+      row.index = rows.size();
+      row.view = (view < 6 ? "thin: v" : "solid: v") + std::to_string(view);
+      row.camera = std::to_string(view);
+      row.technique.filter = filter;
+      row.errors.pixels = 5000;
+      // In thin views pcf has the least, in solid ones hard; vsm is in the middle.
+      const bool thin = view < 6;
+      const double error = *filter == 'v' ? 0.03 : (*filter == 'p') == thin ? 0.02 : 0.05;
+      row.errors.false_lit = error + 1e-3 * view;
+      row.errors.false_shadow = 0.0;
+      rows.push_back(row);
+    }
+  }
+  const Summary summary = summarize(rows);
+  const std::vector<KindBest> best = best_of_kinds(rows, summary);
+  ASSERT_GE(best.size(), 3u);
+  EXPECT_EQ(best.front().kind, "thin");
+  EXPECT_EQ(best.front().views, 6u);
+  EXPECT_EQ(summary.techniques[best.front().technique].filter, "pcf");
+  EXPECT_EQ(summary.techniques[best.front().next].filter, "vsm");
+  EXPECT_EQ(best.front().error.median, 0.0225);
+  EXPECT_EQ(best.front().test.less, 6u);
+  EXPECT_NEAR(best.front().test.chance, 2.0 / 64.0, 1e-12);
+  const auto solid =
+      std::find_if(best.begin(), best.end(), [](const KindBest& b) { return b.kind == "solid"; });
+  ASSERT_NE(solid, best.end());
+  EXPECT_EQ(summary.techniques[solid->technique].filter, "hard");
+  EXPECT_EQ(solid->views, 2u);
+  const Reported report(rows);
+  EXPECT_NE(report.page.find("By kind of scene"), std::string::npos);
+  const std::string tables = text_of(report.folder.path() / "tables.tex");
+  EXPECT_EQ(count(tables, "\\begin{tabular}"), 2u);
+  EXPECT_NE(tables.find("Medians over 8 views"), std::string::npos);
+  EXPECT_NE(text_of(report.folder.path() / "method.tex").find("3 techniques were measured on 8 views"),
+            std::string::npos);
+  EXPECT_NE(text_of(report.folder.path() / "kinds.csv").find("\"thin\",6,wrong,"), std::string::npos);
+  // Each view once, whatever its frames: pcf has less than hard in the thin ones.
+  EXPECT_NE(text_of(report.folder.path() / "pairs.csv").find(",8,"), std::string::npos);
+  EXPECT_NE(text_of(report.folder.path() / "pairs.csv").find(",6,2,"), std::string::npos);
+  // Rows without kinds have no such table.
+  for (Row& row : rows) row.view.clear();
+  EXPECT_TRUE(best_of_kinds(rows, summarize(rows)).empty());
+}
+
+TEST(Entries, without_a_time_have_an_error_and_no_mark) {
+  std::vector<Row> rows = sample_rows(1, 2);
+  for (int frame = 0; frame < 2; ++frame) {
+    Row row = rows[static_cast<std::size_t>(frame) * 2];
+    row.technique = {};
+    row.technique.entry = "theirs";
+    row.technique.filter = "masks";
+    row.technique.cascades = row.technique.map_size = 0;
+    row.times = {};
+    row.truth = "none";
+    row.frame = frame;
+    rows.push_back(row);
+  }
+  rows.back().flips = std::numeric_limits<double>::quiet_NaN();
+  const Row back = row_from_json(to_json_line(rows.back()), "row");
+  EXPECT_TRUE(back.is_masks());
+  EXPECT_TRUE(std::isnan(back.flips));
+  EXPECT_NE(back.key(), rows.front().key());
+  const Summary summary = summarize(rows);
+  const Cell& cell = summary.cells[1].back();
+  EXPECT_TRUE(std::isfinite(cell.values[measure_index("wrong")]));
+  for (const char* key : {"total_ms", "ratio", "depth_ms", "mean_error", "leaking", "m_p95", "map_mib"})
+    EXPECT_TRUE(std::isnan(cell.values[measure_index(key)])) << key;
+  const Reported report(rows);
+  EXPECT_NE(report.page.find("theirs / masks"), std::string::npos);
+  EXPECT_EQ(count(error_time_chart(summary, 1).standalone(), "theirs / masks"), 0u);
 }
 
 }  // namespace

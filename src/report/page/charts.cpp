@@ -2,6 +2,7 @@
 #include "charts.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "text.hpp"
 
@@ -53,7 +54,7 @@ std::vector<std::size_t> notable(const Summary& summary, std::size_t scene, std:
 
 Chart error_time_chart(const Summary& summary, std::size_t scene) {
   const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);
-  Chart chart("Error against run time: " + summary.scenes[scene], axis_of(summary, scene, cost),
+  Chart chart("Error against run time: " + summary.titles[scene], axis_of(summary, scene, cost),
               axis_of(summary, scene, error));
   std::vector<Point> front;
   for (const std::size_t t : summary.front(scene, error, cost)) {
@@ -63,7 +64,7 @@ Chart error_time_chart(const Summary& summary, std::size_t scene) {
   chart.steps(front, 0, "front", "front: no other technique is better in both");
   for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
     const Cell& cell = summary.cells[scene][t];
-    if (!cell.measured) continue;
+    if (!cell.measured || std::isnan(cell.values[cost])) continue;  // an entry without times
     chart.mark({cell.values[cost], measures()[error].shown(cell.values[error])},
                place_in(summary.filters, summary.techniques[t].filter),
                place_in(summary.kinds, summary.techniques[t].kind()), tip_of(summary, scene, t), t);
@@ -76,7 +77,7 @@ Chart error_time_chart(const Summary& summary, std::size_t scene) {
 Chart time_to_error_chart(const Summary& summary, std::size_t scene) {
   const std::size_t error = measure_index(kDefaultError), cost = measure_index(kDefaultCost);
   const Axis errors = axis_of(summary, scene, error);
-  Chart chart("Time to reach an error: " + summary.scenes[scene], errors, axis_of(summary, scene, cost));
+  Chart chart("Time to reach an error: " + summary.titles[scene], errors, axis_of(summary, scene, cost));
   for (std::size_t f = 0; f < summary.filters.size(); ++f) {
     std::vector<Choice> choices;
     std::vector<std::size_t> techniques;
@@ -121,7 +122,7 @@ Chart flight_chart(const Summary& summary, const std::vector<Row>& rows, std::si
   }
   frames.fit(frame_numbers);
   values.fit(all_values);
-  Chart chart(std::string(measures()[measure].name) + " along the camera path: " + summary.scenes[scene],
+  Chart chart(std::string(measures()[measure].name) + " along the camera path: " + summary.titles[scene],
               frames, values);
   for (std::size_t k = 0; k < techniques.size(); ++k) {
     const std::string name = summary.techniques[techniques[k]].name();

@@ -64,10 +64,10 @@ std::string front_table(const Summary& summary, std::size_t scene, std::string_v
 std::string front_tables(const Summary& summary) {
   std::string out;
   for (std::size_t scene = 0; scene < summary.scenes.size(); ++scene) {
-    out += front_table(summary, scene, kDefaultError, "## " + cell(summary.scenes[scene]));
+    out += front_table(summary, scene, kDefaultError, "## " + cell(summary.titles[scene]));
     out += rank_line(summary, scene);
     out += front_table(summary, scene, "pixel_error",
-                       "### " + cell(summary.scenes[scene]) + ", front by pixel error");
+                       "### " + cell(summary.titles[scene]) + ", front by pixel error");
   }
   return out;
 }

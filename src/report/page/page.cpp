@@ -7,6 +7,8 @@
 #include "front_table.hpp"
 #include "gnomon/report/csv.hpp"
 #include "gnomon/report/rows_file.hpp"
+#include "kinds.hpp"
+#include "latex.hpp"
 #include "page_files.hpp"
 #include "sections.hpp"
 #include "text.hpp"
@@ -158,7 +160,11 @@ std::filesystem::path write_report(const std::filesystem::path& folder, std::vec
   write_text(folder / "summary.csv", summary_csv(input.summary));
   write_text(folder / "fronts.md", front_tables(input.summary));
   write_text(folder / "views.csv", views_csv(input.rows, input.summary, kTechniqueHead, technique_columns));
+  write_text(folder / "kinds.csv", kinds_csv(input.rows, input.summary));
+  write_text(folder / "pairs.csv", pairs_csv(input.summary));
   write_text(folder / "frames.csv", frames_csv(input.rows));
+  write_text(folder / "tables.tex", latex_tables(input.rows, input.summary));
+  write_text(folder / "method.tex", latex_method(input.rows, input.summary));
   write_text(folder / "report.html", whole_page(input));
   return folder / "report.html";
 }

@@ -48,7 +48,7 @@ std::string viewer(const PageInput& input, const PagePictures& pictures, std::si
   const PagePictures::OfTechnique& first = of.of.at(of.first);
   const std::string name = input.summary.techniques[of.first].name();
   std::string out =
-      "<h3>" + escaped(input.summary.scenes[scene]) + ", frame " + std::to_string(of.frame) + "</h3>\n";
+      "<h3>" + escaped(input.summary.titles[scene]) + ", frame " + std::to_string(of.frame) + "</h3>\n";
   out +=
       "<div class=\"viewer\" data-scene=\"" + std::to_string(scene) +
       "\">\n<div class=\"script\"><div class=\"bar\"><label>technique <select "
@@ -156,7 +156,7 @@ std::string page_data(const PageInput& input, const PagePictures& pictures) {
   const auto place_in = [](const std::vector<std::string>& names, const std::string& name) {
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
   };
-  Json data{{"start", input.start_scene}, {"scenes", summary.scenes}};
+  Json data{{"start", input.start_scene}, {"scenes", summary.titles}};
   data["measures"] = Json::array();
   for (const Measure& m : measures())
     data["measures"].push_back(

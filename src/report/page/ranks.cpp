@@ -119,7 +119,7 @@ std::string rank_part(const Summary& summary, std::size_t first_scene) {
   for (std::size_t scene = first_scene; scene < summary.scenes.size(); ++scene) {
     if (!has_pixel_errors(summary, scene)) continue;
     out += "<div class=\"by-scene\" data-scene=\"" + std::to_string(scene) + "\">\n<p><b>" +
-           escaped(summary.scenes[scene]) + "</b>: " + agreement(summary, scene) + "</p>\n" +
+           escaped(summary.titles[scene]) + "</b>: " + agreement(summary, scene) + "</p>\n" +
            rank_table(summary, scene) + "</div>\n";
   }
   return out;

@@ -60,9 +60,27 @@
     return best;
   };
   const state = { scene: data.start, error: measure("wrong"), cost: measure("total_ms") };
+
+  // A selection as the end of the address, by names: it holds after the report is written anew.
+  function fromAddress() {
+    const asked = new URLSearchParams(location.hash.slice(1));
+    const scene = data.scenes.indexOf(asked.get("scene")), technique = data.techniques.findIndex((t) => t.name === asked.get("technique"));
+    if (scene >= 0 && measured(scene).length) state.scene = scene;
+    for (const key of ["error", "cost"]) {
+      const m = measure(asked.get(key));
+      if (m >= 0 && data.measures[m].cost === (key === "cost")) state[key] = m;
+    }
+    return technique;
+  }
+  function toAddress() {
+    const chosen = { scene: data.scenes[state.scene], error: data.measures[state.error].key, cost: data.measures[state.cost].key };
+    if (picked >= 0) chosen.technique = data.techniques[picked].name;
+    history.replaceState(null, "", "#" + new URLSearchParams(chosen));
+  }
   const measured = (scene) => data.techniques.map((_, t) => t).filter((t) => data.cells[scene][t]);
   const points_of = () => measured(state.scene).map((t) =>
-    ({ t, x: data.cells[state.scene][t][state.cost], y: data.cells[state.scene][t][state.error] }));
+    ({ t, x: data.cells[state.scene][t][state.cost], y: data.cells[state.scene][t][state.error] }))
+    .filter((p) => p.x !== null);  // a cost that was not measured
 
   function drawChart() {
     const svg = $("error-time"), points = points_of();
@@ -143,6 +161,7 @@
 
   function pick(t, scroll) {
     picked = t;
+    toAddress();
     showPicked(scroll);
     document.querySelectorAll(".viewer").forEach((v) => v.show && v.show(t));
   }
@@ -217,14 +236,15 @@
     update();
   }
 
+  const asked = fromAddress();
   const errors = data.measures.filter((m) => !m.cost).map((m) => [m.key, m.name]);
   const costs = data.measures.filter((m) => m.cost).map((m) => [m.key, m.name]);
   fill($("scene"), data.scenes.map((s, i) => [String(i), s]).filter(([i]) => measured(i).length), String(state.scene));
-  fill($("error"), errors, "wrong");
-  fill($("cost"), costs, "total_ms");
-  $("scene").addEventListener("input", (e) => { state.scene = Number(e.target.value); showScene(); });
-  $("error").addEventListener("input", (e) => { state.error = measure(e.target.value); markDominated(); drawChart(); });
-  $("cost").addEventListener("input", (e) => { state.cost = measure(e.target.value); markDominated(); drawChart(); });
+  fill($("error"), errors, data.measures[state.error].key);
+  fill($("cost"), costs, data.measures[state.cost].key);
+  $("scene").addEventListener("input", (e) => { state.scene = Number(e.target.value); toAddress(); showScene(); });
+  $("error").addEventListener("input", (e) => { state.error = measure(e.target.value); toAddress(); markDominated(); drawChart(); });
+  $("cost").addEventListener("input", (e) => { state.cost = measure(e.target.value); toAddress(); markDominated(); drawChart(); });
   document.querySelectorAll("#summary th").forEach((head, column) => {
     const button = document.createElement("button");
     button.textContent = head.textContent;
@@ -272,4 +292,14 @@
     update();
   });
   showScene();
+  if (asked >= 0 && data.cells[state.scene][asked]) pick(asked, true);
+  window.addEventListener("hashchange", () => {
+    if (!location.hash.includes("=")) return;  // a place within the page
+    const t = fromAddress();
+    $("scene").value = String(state.scene);
+    $("error").value = data.measures[state.error].key;
+    $("cost").value = data.measures[state.cost].key;
+    showScene();
+    if (t >= 0 && data.cells[state.scene][t]) pick(t, true);
+  });
 })();

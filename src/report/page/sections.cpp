@@ -9,6 +9,7 @@
 #include "charts.hpp"
 #include "expected.hpp"
 #include "file.hpp"
+#include "kinds.hpp"
 #include "ranks.hpp"
 #include "stability.hpp"
 #include "text.hpp"
@@ -173,8 +174,8 @@ std::string section_error_time(const PageInput& input) {
            time_to_error_chart(summary, scene).embedded("time-to-error-" + number) +
            matched_error_table(summary, scene) + "</div>\n";
   }
-  return out + view_part(input.rows, summary) + rank_part(summary, input.start_scene) +
-         expected_part(input.rows) + "</section>\n";
+  return out + view_part(input.rows, summary) + kind_part(input.rows, summary) +
+         rank_part(summary, input.start_scene) + expected_part(input.rows) + "</section>\n";
 }
 
 std::string section_summary(const PageInput& input) {
@@ -193,7 +194,7 @@ std::string section_summary(const PageInput& input) {
     if (scene == 0 && input.start_scene != 0) continue;
     const std::vector<std::size_t> front = summary.front(scene, error, cost);
     out += "<tbody data-scene=\"" + std::to_string(scene) + "\">\n<tr class=\"scene\"><td colspan=\"" +
-           std::to_string(measures().size() + 2) + "\">" + escaped(summary.scenes[scene]) + "</td></tr>\n";
+           std::to_string(measures().size() + 2) + "\">" + escaped(summary.titles[scene]) + "</td></tr>\n";
     for (const std::size_t t : by_error(summary, scene))
       out += summary_row(summary, scene, t, std::find(front.begin(), front.end(), t) != front.end());
     out += "</tbody>\n";
@@ -208,7 +209,7 @@ std::string section_flight(const PageInput& input) {
       "shadow does not. The charts show the techniques of each scene's front.</p>\n";
   for (std::size_t scene = 1; scene < input.summary.scenes.size(); ++scene) {
     const std::vector<std::size_t> shown = notable(input.summary, scene, kFlightLines);
-    out += "<h3>" + escaped(input.summary.scenes[scene]) + "</h3>\n";
+    out += "<h3>" + escaped(input.summary.titles[scene]) + "</h3>\n";
     const std::size_t all = notable(input.summary, scene, input.summary.techniques.size()).size();
     if (all > shown.size()) {
       out += "<p class=\"note\">The " + std::to_string(shown.size()) + " most exact of " +

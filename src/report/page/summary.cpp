@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <map>
 #include <set>
@@ -210,6 +211,14 @@ Summary summarize(const std::vector<Row>& rows) {
     gathered_rows[scene - 1][place_of(s.techniques, rows[i].technique)].push_back(&rows[i]);
     s.rows_of[scene].push_back(i);
   }
+  for (const std::string& scene : s.scenes) s.titles.push_back(short_scene_name(scene));
+  for (std::size_t i = 0; i < s.titles.size(); ++i) {
+    // Two of one short name keep their own.
+    const std::string title = s.titles[i];
+    if (std::count(s.titles.begin(), s.titles.end(), title) < 2) continue;
+    for (std::size_t k = i; k < s.titles.size(); ++k)
+      if (s.titles[k] == title) s.titles[k] = s.scenes[k];
+  }
   s.cells.emplace_back();
   for (const auto& by_technique : gathered_rows) {
     s.cells.emplace_back();
@@ -220,6 +229,26 @@ Summary summarize(const std::vector<Row>& rows) {
     std::stable_sort(numbers.begin(), numbers.end(),
                      [&](std::size_t a, std::size_t b) { return rows[a].frame < rows[b].frame; });
   return s;
+}
+
+std::string short_scene_name(const std::string& scene) {
+  const std::size_t comma = scene.find(", ");
+  std::string name = scene.substr(0, comma), camera = comma == std::string::npos ? "" : scene.substr(comma);
+  const std::filesystem::path file(name);
+  const std::string extension = file.extension().string();
+  if (extension == ".gltf" || extension == ".glb") {
+    name = file.stem().string();
+    if ((name == "scene" || name == "model") && file.parent_path().has_filename())
+      name = file.parent_path().filename().string();
+  }
+  constexpr std::size_t kHash = 16;
+  const std::size_t space = camera.rfind(' ');
+  const bool has_hash = space != std::string::npos && camera.size() - space - 1 == kHash &&
+                        camera.find_first_not_of("0123456789abcdef", space + 1) == std::string::npos;
+  if (has_hash) camera.resize(space);
+  for (const std::string_view word : {", path ", ", capture "})
+    if (camera.starts_with(word)) camera = ", " + camera.substr(word.size());
+  return name + camera;
 }
 
 std::string parametrization_of(Technique technique) {

@@ -43,6 +43,7 @@ struct Cell {
 
 struct Summary {
   std::vector<std::string> scenes;  ///< the first stands for all of them together
+  std::vector<std::string> titles;  ///< the same for people: files without folders, cameras without numbers
   std::vector<Technique> techniques;
   std::vector<std::vector<Cell>> cells;           ///< [scene][technique]
   std::vector<std::vector<std::size_t>> rows_of;  ///< [scene][row numbers], by frame; none for the first
@@ -56,6 +57,9 @@ struct Summary {
 /// of the scenes and costs their geometric mean, over techniques that were measured on all of them. Scenes
 /// with fewer than kFewestPixels have no part in it, unless all are such.
 [[nodiscard]] Summary summarize(const std::vector<Row>& rows);
+
+/// "church" for "../models/church/scene.gltf", and "far.json" for "path far.json 0123456789abcdef".
+[[nodiscard]] std::string short_scene_name(const std::string& scene);
 
 /// How a technique lays its maps, for people: its name without the filter.
 [[nodiscard]] std::string parametrization_of(Technique technique);
