@@ -84,6 +84,25 @@ def check_keyboard(browser):
           "keyboards reach every box that scrolls")
 
 
+def check_address(browser, page):
+    """The address holds the selection, and leads back to it."""
+    browser.open(page)
+    mark = browser.value("document.querySelector('#error-time .mark').dataset.id")
+    browser.click("#error-time .mark[data-id='%s']" % mark)
+    browser.value("(e => { e.value = 'flips'; e.dispatchEvent(new Event('input', {bubbles: true})); })(document.getElementById('error'))")
+    address = browser.value("location.hash")
+    check("error=flips" in address and "technique=" in address, "the address holds the selection: %s" % address)
+    browser.open("about:blank")
+    browser.open(page + address)
+    check(browser.complaints() == [], "complaints under an address: %s" % browser.complaints())
+    check(browser.value("document.getElementById('error').value") == "flips", "the address brings the error back")
+    check(browser.value("document.querySelector('#error-time .mark.picked').dataset.id") == mark, "and the technique")
+    browser.open("about:blank")
+    browser.open(page + "#scene=nowhere&error=total_ms&cost=x&technique=%3Cb%3E")
+    check(browser.complaints() == [], "complaints under a wrong address: %s" % browser.complaints())
+    check(browser.value("document.getElementById('error').value") == "wrong", "what no page has changes nothing")
+
+
 def check_percent(browser):
     """Shares read as percent, in the table, on the axis and beside the chart."""
     heads = browser.value("[...document.querySelectorAll('#summary th')].map(e => e.textContent.trim())")
@@ -156,6 +175,8 @@ def main():
         check_controls(browser)
         check(browser.complaints() == [], "the page complains after use: %s" % browser.complaints())
         check_percent(browser)
+        check_address(browser, page)
+        browser.open(page)
         check_keyboard(browser)
         check_phone(browser, page)
         check(browser.complaints() == [], "the page complains on a phone: %s" % browser.complaints())

@@ -78,6 +78,16 @@ TEST(StudyFile, is_refused_by_the_field_that_is_wrong) {
        "did you mean 'filters'"},
       {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "out": "x"})",
        "study.json: out: belongs on the command line"},
+      {R"({"schema": "gnomon-study/1", "views": [{"name": "a", "scenes": "builtin:fence"}, {"name": "a", "scenes": "builtin:room"}]})",
+       "study.json: views[1].name: is the name of another view"},
+      {R"({"schema": "gnomon-study/1", "views": [{"scenes": "builtin:fence", "optional": 1}]})",
+       "study.json: views[0].optional: needs true or false"},
+      {R"({"schema": "gnomon-study/1", "views": [{"scenes": "builtin:fence", "licence": ""}]})",
+       "study.json: views[0].licence: needs a text"},
+      {R"({"schema": "gnomon-study/1", "views": [{"scenes": "builtin:fence", "hash": "0123456789abcdef"}]})",
+       "study.json: views[0].hash: builtin:fence has none, and not 0123456789abcdef"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "exact": "x"})",
+       "study.json: exact: belongs on the command line"},
       {R"({"schema": "gnomon-study/1", )", "study.json: "},
   };
   for (const auto& [text, names] : cases) {
@@ -88,6 +98,30 @@ TEST(StudyFile, is_refused_by_the_field_that_is_wrong) {
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
     EXPECT_FALSE(fs::exists(folder.path() / "out")) << text;
   }
+}
+
+TEST(StudyFile, omits_an_optional_view_whose_file_is_absent_and_names_it) {
+  const TemporaryFolder folder;
+  const std::string text = R"({"schema": "gnomon-study/1", "filters": "hard", "warps": "none", "cascades": 1,
+    "map_sizes": 64, "frames": 1, "rounds": 1, "size": "64x36", "views": [
+    {"name": "thin: fence", "scenes": "builtin:fence"},
+    {"name": "lost", "scenes": "nowhere/scene.gltf", "optional": true, "hash": "0", "licence": "CC0-1.0"},
+    {"name": "thin: low sun", "scenes": "builtin:fence", "light_elevation_deg": 10}]})";
+  const Finished finished = compared_by(folder, text);
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  EXPECT_NE(finished.err.find("study.json: views[1]: nowhere/scene.gltf is not there"), std::string::npos)
+      << finished.err;
+  EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path() / "out");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].view, "thin: fence");
+  EXPECT_EQ(rows[1].view, "thin: low sun");
+  const TemporaryFolder other;
+  const Finished none = compared_by(
+      other,
+      R"({"schema": "gnomon-study/1", "views": [{"scenes": "nowhere/scene.gltf", "optional": true}]})");
+  EXPECT_EQ(none.exit_code, 2);
+  EXPECT_NE(none.err.find("study.json: no view is left"), std::string::npos) << none.err;
 }
 
 TEST(StudyFile, takes_no_field_from_the_command_line) {
