@@ -108,6 +108,28 @@ TEST(Entries, what_others_do_not_hand_in_is_not_measured) {
       << "it has an error, and no place on a front";
 }
 
+TEST(Entries, flicker_is_of_the_mask_that_moved_and_twinkling_of_the_one_before) {
+  const TemporaryFolder folder;
+  const fs::path given = folder.path() / "given";
+  fs::copy(with_masks() / "masks/technique0", given);
+  const std::string lines = content_of(given / "masks.jsonl");
+  std::ofstream list(given / "masks.jsonl");
+  for (std::size_t begin = 0, end; (end = lines.find('\n', begin)) != std::string::npos; begin = end + 1) {
+    json line = json::parse(lines.substr(begin, end - begin));
+    line["mask_moved"] = line["mask"];
+    list << line.dump() << "\n";
+  }
+  list.close();
+  ASSERT_EQ(beside(folder.path() / "out", {"still=" + given.string()}).exit_code, 0);
+  double twinkling = 0.0;
+  for (const report::Row& row : report::read_rows(folder.path() / "out")) {
+    if (row.technique.entry != "still") continue;
+    EXPECT_EQ(row.flips, 0.0);
+    twinkling += row.pixel->twinkle;
+  }
+  EXPECT_GT(twinkling, 0.0);
+}
+
 TEST(Entries, what_is_wrong_is_named_and_the_rest_is_measured) {
   const TemporaryFolder folder;
   const auto broken = [&](const std::string& name, const auto& change) {
