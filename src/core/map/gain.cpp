@@ -134,10 +134,12 @@ double inner_ratio(const WarpInput& in, const WarpChoice& choice) noexcept {
       in.objective != Objective::p95 && !in.light.perspective && !(in.tan_half_fov > kWideSlope);
   const double turned = turned_pixels(in, choice);
   if (!opposed && !(turned > 1.0) && (exact || !(ratio > kSure))) return ratio;
-  // Of what two sets of points between the corners show, others may show a little more.
-  constexpr double kBetween = 1.15;
+  // Of what two sets of points between the corners show, others may show a little more, and far more where
+  // pixels are long.
+  constexpr double kBetween = 1.15, kLong = 4.0;
+  const double between = sides_differ(in.view, kLong) ? turned : min_of(turned, kBetween);
   double sampled = max_of(ratio, sampled_ratio(in, choice, true, 1));
-  if (turned > 1.0) sampled = max_of(sampled, sampled_ratio(in, choice, true, 0)) * min_of(turned, kBetween);
+  if (turned > 1.0) sampled = max_of(sampled, sampled_ratio(in, choice, true, 0)) * between;
   return sampled * unsure;
 }
 
