@@ -18,10 +18,10 @@ mkdir -p "$work/consumer"
 archive="$(cd "$here/.." && npm pack --silent --pack-destination "$work/consumer")"
 cd "$work/consumer"
 echo '{"name": "consumer", "private": true, "type": "module"}' >package.json
-npm install --silent --no-audit --no-fund "./$archive" typescript@5 three@0.187 @types/three three-mesh-bvh@0.9 puppeteer-core@24 @babylonjs/core@9.35
+npm install --silent --no-audit --no-fund "./$archive" typescript@5 three@0.187 @types/three three-mesh-bvh@0.9 puppeteer-core@24 @babylonjs/core@9.35 playcanvas@2.23
 export MODULE="$work/consumer/node_modules/gnomon/index.js" CASES="$cases" MORE="$more" CONSUMER="$work/consumer"
 node --test "$here"/*.test.js
-# The types hold what the manual shows. Those of Babylon declare what others declare as well: they are not checked themselves.
+# The types hold what the manual shows. Those of Babylon and PlayCanvas declare what others declare as well: they are not checked themselves.
 cp "$here"/types*.ts .
 npx tsc --noEmit --strict --target es2022 --lib es2022,dom --module nodenext types.ts
-npx tsc --noEmit --strict --skipLibCheck --target es2022 --lib es2022,dom --module nodenext types_babylon.ts
+npx tsc --noEmit --strict --skipLibCheck --target es2022 --lib es2022,dom --module nodenext types_babylon.ts types_playcanvas.ts

@@ -6,7 +6,7 @@ import { dirname, extname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
 
 const here = dirname(fileURLToPath(import.meta.url));
-const TYPES = { '.js': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
+const TYPES = { '.js': 'text/javascript', '.mjs': 'text/javascript', '.wasm': 'application/wasm', '.html': 'text/html' };
 const IMPORTS = {
   three: '/node_modules/three/build/three.module.js',
   'three/addons/': '/node_modules/three/examples/jsm/',
@@ -14,12 +14,15 @@ const IMPORTS = {
   'gnomon/three': '/node_modules/gnomon/three.js',
   'gnomon/babylon': '/node_modules/gnomon/babylon.js',
   '@babylonjs/core/': '/node_modules/@babylonjs/core/',
+  'gnomon/playcanvas': '/node_modules/gnomon/playcanvas.js',
+  playcanvas: '/node_modules/playcanvas/build/playcanvas.mjs',
   'three-mesh-bvh': '/node_modules/three-mesh-bvh/build/index.module.js',
 };
 const EMPTY = `<!doctype html><link rel="icon" href="data:,"><script type="importmap">${JSON.stringify({ imports: IMPORTS })}</script><body></body>`;
 
 function serve(consumer, scenes) {
-  const roots = { node_modules: join(consumer, 'node_modules'), sample: join(here, '../../../samples/web'), scenes };
+  const samples = join(here, '../../../samples');
+  const roots = { node_modules: join(consumer, 'node_modules'), sample: join(samples, 'web'), capture: join(samples, 'capture'), scenes };
   return createServer((request, response) => {
     const path = decodeURIComponent(new URL(request.url, 'http://x').pathname);
     if (path === '/') {

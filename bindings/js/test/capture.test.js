@@ -1,25 +1,20 @@
 // Does the capture writer for three.js write what `gnomon judge` reads? The shipped captures are made again by it, and compared.
-// CONSUMER: where three is installed. GNOMON: the program, where it is built; without it, its verdict is not looked at.
+// CONSUMER: where three is installed. GNOMON: see captures.js.
 import assert from 'node:assert/strict';
-import { spawnSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, writeFileSync } from 'node:fs';
-import { tmpdir } from 'node:os';
 import { createRequire } from 'node:module';
-import { dirname, join } from 'node:path';
+import { join } from 'node:path';
 import test from 'node:test';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { pathToFileURL } from 'node:url';
 import { captureFlight, captureThree, frameOf } from '../../../samples/capture/three.js';
+import { alike, judged, shipped } from './captures.js';
 import { boxes } from './street.js';
 
-const here = dirname(fileURLToPath(import.meta.url));
 const consumer = process.env.CONSUMER;
 const within = (path) => import(pathToFileURL(join(consumer, 'node_modules', path)));
 const THREE = await import(pathToFileURL(createRequire(join(consumer, 'x.js')).resolve('three').replace('three.cjs', 'three.module.js')));
 const { CSM } = await within('three/examples/jsm/csm/CSM.js');
 const { SunLight } = await within('three/examples/jsm/lights/SunLight.js');
-const program = process.env.GNOMON ?? join(here, '../../../build/release/bin/gnomon');
 const canvas = { width: 960, height: 540 };
-const shipped = (name) => JSON.parse(readFileSync(join(here, '../../../samples/capture', `${name}.json`), 'utf8'));
 
 function street() {
   const scene = new THREE.Scene();
@@ -38,24 +33,6 @@ function walk(camera, i) {
   camera.updateMatrixWorld();
 }
 const eye = () => new THREE.PerspectiveCamera(60, 16 / 9, 0.5, 250);
-
-/** Numbers within rounding, all else equal. */
-function alike(a, b, path = '') {
-  if (typeof b === 'number') return assert.ok(Math.abs(a - b) <= 1e-5 * (1 + Math.abs(b)), `${path}: ${a} and ${b}`);
-  if (b === null || typeof b !== 'object') return assert.equal(a, b, path);
-  assert.deepEqual(Object.keys(a), Object.keys(b), path);
-  for (const key of Object.keys(b)) alike(a[key], b[key], `${path}.${key}`);
-}
-
-/** The program takes it; its findings. */
-function judged(capture) {
-  if (!existsSync(program)) return undefined;
-  const file = join(mkdtempSync(join(tmpdir(), 'capture-')), 'capture.json');
-  writeFileSync(file, JSON.stringify(capture));
-  const run = spawnSync(program, ['judge', file, '--json'], { encoding: 'utf8' });
-  assert.equal(run.status, 0, run.stderr);
-  return JSON.parse(run.stdout).findings.map(({ kind }) => kind);
-}
 
 test('a flight of the CSM add-on is the shipped one', () => {
   const scene = street(), camera = eye();

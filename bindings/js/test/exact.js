@@ -40,11 +40,11 @@ function turn(camera, i) {
   camera.position.set(85 * Math.sin(angle), 16, 115 * Math.cos(angle));
   camera.lookAt(20 * Math.sin(angle + 1), 14, 20 * Math.cos(angle + 1));
 }
-// Babylon draws front faces: its own shadows take the biases of `flights.js babylon --biases`, by the rule below.
+// Babylon and PlayCanvas draw front faces: their own shadows take biases of `flights.js ENGINE --biases`, by the rule below.
 const BABYLON = { 512: { cascaded: [0.01, 0], single: [0.02, 0.2] }, 1024: { cascaded: [0.005, 0], single: [0.02, 0.1] } };
 export const SCENES = {
-  street: { meshes: streetMeshes, toSun: [-0.5, 1, 0.35], place: walk, babylon: BABYLON },
-  'low sun': { meshes: streetMeshes, toSun: [-0.8, 0.28, -0.45], place: walk, babylon: BABYLON },
+  street: { meshes: streetMeshes, toSun: [-0.5, 1, 0.35], place: walk, babylon: BABYLON, playcanvas: { 512: [0.2, 0.05], 1024: [0.2, 0] } },
+  'low sun': { meshes: streetMeshes, toSun: [-0.8, 0.28, -0.45], place: walk, babylon: BABYLON, playcanvas: { 512: [0.2, 0], 1024: [0.2, 0] } },
   // A spot above the street, in place of a sun.
   lamp: { meshes: streetMeshes, place: walk, lamp: { position: [0, 18, -20], target: [2, 0, -50], angle: 0.9, distance: 200 } },
   // Front faces in maps need a bias: three's own shadows take the one with the fewest misclassified pixels of those in BIASES

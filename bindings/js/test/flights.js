@@ -1,6 +1,8 @@
 // Are gnomon's maps better in an engine than its own while the camera moves? Flights, counted against exact rays.
-//   node test/flights.js [babylon] [FRAMES] [PICTURES]   FRAMES: 120; PICTURES: a folder for one picture of each flight and technique
-//   node test/flights.js [babylon] --biases              the engine's own with several biases, a few frames of the scenes that need one
+//   node test/flights.js [ENGINE] [FRAMES] [PICTURES]   FRAMES: 120; PICTURES: a folder for one picture of each flight and technique
+//   node test/flights.js [ENGINE] --biases               the engine's own with several biases, a few frames of the scenes that need one
+//   node test/flights.js playcanvas --rolls              its own with the light turned about its direction
+// ENGINE: three, babylon or playcanvas.
 // CONSUMER: a folder in which gnomon, the engines, three-mesh-bvh and puppeteer-core are installed, as all.sh leaves it.
 // SCENES: a folder of glTF scenes; without it the city is not flown.
 import { existsSync, mkdirSync, writeFileSync } from 'node:fs';
@@ -12,7 +14,10 @@ const here = dirname(fileURLToPath(import.meta.url));
 const consumer = process.env.CONSUMER ?? join(here, '../../../build/js/consumer');
 const folder = process.env.SCENES ?? join(here, '../../../../shared/scenes');
 const SIZES = { 1024: [960, 540], 512: [640, 360] };
-const PAGES = { three: 'flights_page.js', babylon: 'babylon_page.js' };
+const SCENES_OF = { three: ['street', 'low sun', 'lamp', 'city'], babylon: ['street', 'low sun', 'city'], playcanvas: ['street', 'low sun'] };
+// Those that need a bias.
+const BIASED = { three: ['both sides', 'city'], babylon: ['street', 'low sun', 'both sides', 'city'], playcanvas: ['street', 'low sun'] };
+const PAGES = { three: 'flights_page.js', babylon: 'babylon_page.js', playcanvas: 'playcanvas_page.js' };
 
 /** Rows of one flight: misclassified pixels, flips and acne of every technique. `others`: see run() of the pages. */
 export async function fly(scene, size, frames, { engine = 'three', ...others } = {}) {
@@ -27,7 +32,7 @@ const percent = (share) => `${(100 * share).toFixed(3)} %`;
 async function table(engine, frames, out) {
   console.log('| scene | maps | technique | misclassified | to its own | flips | to its own | acne |\n|--|--|--|--:|--:|--:|--:|--:|');
   for (const size of Object.keys(SIZES).map(Number)) {
-    for (const scene of engine === 'three' ? ['street', 'low sun', 'lamp', 'city'] : ['street', 'low sun', 'city']) {
+    for (const scene of SCENES_OF[engine]) {
       const { rows, pictures } = await fly(scene, size, frames, { engine, ...(out === undefined ? {} : { pictureOf: frames >> 1 }) });
       let own;
       for (const row of rows) {
@@ -41,11 +46,11 @@ async function table(engine, frames, out) {
   }
 }
 
-async function biases(engine) {
+async function sweeps(engine, sweep) {
   const three = engine === 'three';
   for (const size of Object.keys(SIZES).map(Number)) {
-    for (const scene of three ? ['both sides', 'city'] : ['street', 'low sun', 'both sides', 'city']) {
-      const { rows } = await fly(scene, size, three ? 2 : 6, { engine, step: three ? 45 : 17, sweep: true });
+    for (const scene of BIASED[engine]) {
+      const { rows } = await fly(scene, size, three ? 2 : 6, { engine, step: three ? 45 : 17, sweep });
       for (const { technique, wrong, acne } of rows) console.log(`${scene}, ${size}², ${technique}: ${percent(wrong)} misclassified, ${percent(acne)} acne`);
     }
   }
@@ -53,6 +58,7 @@ async function biases(engine) {
 
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
   const given = process.argv.slice(2);
-  const engine = given[0] === 'babylon' ? given.shift() : 'three';
-  await (given[0] === '--biases' ? biases(engine) : table(engine, Number(given[0] ?? 120), given[1]));
+  const engine = given[0] in PAGES ? given.shift() : 'three';
+  const sweep = given[0]?.match(/^--(biases|rolls)$/)?.[1];
+  await (sweep !== undefined ? sweeps(engine, sweep) : table(engine, Number(given[0] ?? 120), given[1]));
 }
