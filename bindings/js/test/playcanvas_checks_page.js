@@ -113,7 +113,9 @@ async function views(gnomon) {
   const blend = sun.light.cascadeBlend;
   const bands = shadows.plan.maps.slice(1).map(({ overlap, depthBegin }) => overlap / depthBegin);
   const second = new pc.Entity();
-  second.addComponent('camera', { farClip: 60, priority: -1, clearColor: new pc.Color(0, 0, 0) });
+  // Planned and drawn after the first one, beside its picture.
+  const renderTarget = new pc.RenderTarget({ colorBuffer: new pc.Texture(place.app.graphicsDevice, { width: 64, height: 64, mipmaps: false }), depth: true });
+  second.addComponent('camera', { farClip: 60, priority: 1, renderTarget });
   second.setPosition(20, 5, 0);
   place.app.root.addChild(second);
   const twice = same(alone, place.draw(sun));
