@@ -6,18 +6,19 @@
 
 namespace gnomon {
 
-/// Number `i` of those that follow each other by `step`, modulo 1.
-constexpr double spread(double step, std::size_t i) noexcept {
-  const double value = 0.5 + step * static_cast<double>(i);
+/// Number `i`, a whole one, of those that follow each other by `step`, modulo 1.
+constexpr double spread(double step, double i) noexcept {
+  const double value = 0.5 + step * i;
   return value - static_cast<double>(static_cast<int>(value));
 }
 
-/// Point `i` of the unit square: even without the aliasing of a grid.
+/// Steps along x and y: point `i` of the unit square is even without the aliasing of a grid.
+inline constexpr double kEvenX = 0.7548776662466927, kEvenY = 0.5698402909980532;
 constexpr double even_x(std::size_t i) noexcept {
-  return spread(0.7548776662466927, i);
+  return spread(kEvenX, static_cast<double>(i));
 }
 constexpr double even_y(std::size_t i) noexcept {
-  return spread(0.5698402909980532, i);
+  return spread(kEvenY, static_cast<double>(i));
 }
 
 }  // namespace gnomon

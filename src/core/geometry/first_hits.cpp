@@ -109,7 +109,8 @@ class NearestBoxes {
       const std::size_t taken = std::min(number % kMost, count_[ray] - 1);
       const Through& box = box_[ray][taken];
       // A surface lies somewhere inside of its box: points on the boxes' sides were as often worse as better.
-      const double depth = box.begin + spread(0.3819660112501051, number) * (box.end - box.begin);
+      const double depth =
+          box.begin + spread(0.3819660112501051, static_cast<double>(number)) * (box.end - box.begin);
       seen.point[seen.count++] = origin_[ray] + direction_[ray] * depth;
     }
   }

@@ -21,19 +21,6 @@ constexpr std::size_t kRays = 104;
 static_assert(kRays % kDoubleLanes == 0);
 constexpr int kVisiblePoints = 96;
 
-/// Where rays go through the image that they are spread over.
-struct EvenRays {
-  alignas(64) std::array<double, kRays> x, y;
-  constexpr explicit EvenRays(std::size_t set) noexcept : x{}, y{} {
-    for (std::size_t i = 0; i < kRays; ++i) {
-      x[i] = even_x(i + set * kRays);
-      y[i] = even_y(i + set * kRays);
-    }
-  }
-};
-constexpr std::array<EvenRays, kRaySets> kEvenRays = {EvenRays(0), EvenRays(1), EvenRays(2), EvenRays(3),
-                                                      EvenRays(4), EvenRays(5), EvenRays(6), EvenRays(7)};
-
 /// A face of the body as a bound on 1 / depth along the ray (x, y, 1) of the image: linear in x and y, so
 /// that finding where a ray is inside the body takes no division.
 struct InverseDepthBound {
@@ -103,12 +90,14 @@ struct Rays {
   alignas(64) std::array<double, kRays> x, y, least, most, begin, length;
 };
 
-GNOMON_WIDE void find_rays(const ImageRange& image, const EvenRays& even, const InverseDepthBounds& bounds,
-                           double most, Rays& rays) noexcept {
+GNOMON_WIDE void find_rays(const ImageRange& image, int set, const InverseDepthBounds& bounds, double most,
+                           Rays& rays) noexcept {
   const double width = image.right - image.left, height = image.top - image.bottom;
   for (std::size_t i = 0; i < kRays; ++i) {
-    rays.x[i] = image.left + width * even.x[i];
-    rays.y[i] = image.bottom + height * even.y[i];
+    // No table: a few operations take less room in a module of WebAssembly.
+    const auto number = static_cast<double>(static_cast<int>(i) + set * static_cast<int>(kRays));
+    rays.x[i] = image.left + width * spread(kEvenX, number);
+    rays.y[i] = image.bottom + height * spread(kEvenY, number);
     rays.least[i] = 0.0;
     rays.most[i] = most;
   }
@@ -314,7 +303,7 @@ void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noex
   const InverseDepthBounds bounds =
       inverse_depth_bounds(*input.polytope, input.view, input.depth_begin, image);
   Rays rays;
-  find_rays(image, kEvenRays[static_cast<std::size_t>(set)], bounds, 1.0 / input.depth_begin, rays);
+  find_rays(image, set, bounds, 1.0 / input.depth_begin, rays);
   double total = 0.0;
   for (const double length : rays.length) total += length;
   if (!(total > 0.0 && total < std::numeric_limits<double>::infinity())) return;
