@@ -248,13 +248,15 @@ void clip_to_points(const PlanContext& c, const LightFrame& frame, double begin,
                     Polytope& body) noexcept {
   Box bounds;  // along the frame's axes
   double farthest = 0.0;
-  // Depths of points on the slice's ends are rounded, and so are the points.
-  constexpr double kRounding = 1e-9;
-  const double slack =
+  // Depths of points on the slice's ends are rounded, and so are the points. A point far beside the view's
+  // axis has a depth that is far less than what it is the sum of.
+  constexpr double kRounding = 1e-9, kSumRounding = 1e-12;
+  const double slice_slack =
       kRounding * (max_of(std::abs(begin), std::abs(end)) + largest_component(c.camera.position));
   for (const glm::dvec3& point : c.visible_points) {
     const glm::dvec3 p = point - c.camera.position;
     const double depth = glm::dot(c.axes.forward, p);
+    const double slack = slice_slack + kSumRounding * largest_component(p);
     if (!(depth >= begin - slack && depth <= end + slack)) continue;
     bounds.extend(frame.turned(p));
     farthest = max_of(farthest, depth);

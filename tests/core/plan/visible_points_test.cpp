@@ -61,6 +61,33 @@ TEST(VisiblePoints, by_hand_the_map_is_as_wide_as_their_bounds_and_the_room_roun
   EXPECT_LT(map.texel_world.x, 0.25 * plain.plan({}).map[0].texel_world.x);
 }
 
+// Its depth is the sum of far larger numbers: by their rounding it lies before the slice that begins at it.
+TEST(VisiblePoints, a_point_far_beside_the_axis_belongs_to_the_slice_that_begins_at_its_depth) {
+  const Camera camera =
+      orthographic_camera({0, 0, 0}, {-0.8, -0.08, 1}, {0, 1, 0}, 1.0, 1.0, 2.7e-11, 1.0, 20000, 2000);
+  const CameraAxes axes = camera_axes(camera);
+  const std::vector<Box> boxes = {{{0, -1, 0}, {1, 0, 1}}};
+  const auto at = [&](double x, double y, double depth) {
+    return axes.right * x + axes.up * y + axes.forward * depth;
+  };
+  int before = 0;
+  for (const double x : {-0.5, -0.4, -0.3, -0.2, -0.1}) {
+    for (const double y : {-0.5, -0.4, -0.3, -0.2}) {
+      const double near = camera.near_depth;
+      const std::vector<glm::dvec3> points = {at(x, y, near), at(-0.3, -0.3, 1.00001 * near),
+                                              at(-0.3, -0.3, 1e-8)};
+      const ShadowPlan plan = make_plan({.camera = camera, .points_world = points},
+                                        DirectionalLight{{0.25, -1, 0.5}}, {boxes, boxes}, PlanOptions{});
+      const double depth = depth_of(camera, points[0]);
+      before += depth < near ? 1 : 0;
+      const int map = map_serving(plan, points[0], depth);
+      ASSERT_GE(map, 0);
+      EXPECT_TRUE(map_holds(plan, plan.map[static_cast<std::size_t>(map)], points[0])) << x << ", " << y;
+    }
+  }
+  EXPECT_GT(before, 0);
+}
+
 TEST(VisiblePoints, the_room_goes_by_the_longer_side_of_a_pixel) {
   for (const bool wide : {true, false}) {
     Plain plain;
