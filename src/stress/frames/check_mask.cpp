@@ -5,10 +5,13 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
 #include <sstream>
+#include <variant>
+#include <vector>
 
 #include "decided.hpp"
 #include "gnomon/trace/reference.hpp"
@@ -209,11 +212,47 @@ void check_pixel(FrameStage& stage, const Truth& truth, Spaces& spaces, const Fl
   }
 }
 
+/// The rounding of lists and of the places that they are handed, world units: light_frames states it of a
+/// scene's size and the distance to the light. Rays are far finer.
+double list_rounding(const Truth& truth, const FrameStage& stage) {
+  constexpr double kRounding = 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
+  const Light& light = stage.setting().input.light;
+  const glm::dvec3& eye = stage.camera().position;
+  double size = 0.0;
+  for (const WorldTriangle& t : truth.triangles)
+    for (const glm::dvec3& corner : t.corner) size = std::max(size, glm::length(corner));
+  double away = 0.0;
+  if (const auto* spot = std::get_if<SpotLight>(&light)) away = glm::length(spot->position - eye);
+  if (const auto* point = std::get_if<PointLight>(&light)) away = glm::length(point->position - eye);
+  // A scene is as wide as twice its farthest corner.
+  return kRounding * (3.0 * size + away);
+}
+
+/// The same points, moved to six sides by more than lists round: those that start higher do so by at least
+/// twice of what lists lift them. An answer that holds at all of them is one that lists promise.
+std::vector<trace::SurfacePoints> moved_points(const Truth& truth, const FrameStage& stage) {
+  const double off = 4.0 * list_rounding(truth, stage);
+  std::vector<trace::SurfacePoints> all;
+  for (const glm::dvec3& by :
+       {glm::dvec3(off, 0, 0), {-off, 0, 0}, {0, off, 0}, {0, -off, 0}, {0, 0, off}, {0, 0, -off}}) {
+    trace::SurfacePoints& moved = all.emplace_back(truth.points);
+    for (trace::SurfacePoint& p : moved.pixels) p.position += by;
+  }
+  return all;
+}
+
 /// One sample by lists: each pixel that rays decide.
-void check_exact(FrameStage& stage, const Truth& truth, const FloatImage& mask, FrameReport& report) {
+void check_exact(FrameStage& stage, const Truth& truth, const FloatImage& mask,
+                 const std::vector<trace::SurfacePoints>& round, FrameReport& report) {
+  std::vector<trace::HardReference> beside;
+  for (const trace::SurfacePoints& points : round)
+    beside.push_back(trace::hard_reference(truth.tracer, points, stage.setting().input.light));
   for (std::size_t i = 0; i < truth.hard.pixels.size(); ++i) {
     const trace::Verdict hard = truth.hard.pixels[i];
     if (hard != trace::Verdict::lit && hard != trace::Verdict::shadow) continue;
+    const bool sure = std::all_of(beside.begin(), beside.end(),
+                                  [&](const trace::HardReference& r) { return r.pixels[i] == hard; });
+    if (!sure) continue;
     ++report.counts().exact;
     const bool lit = mask.values[2 * i] > 0.5f;
     if (lit != (hard == trace::Verdict::lit))
@@ -223,24 +262,20 @@ void check_exact(FrameStage& stage, const Truth& truth, const FloatImage& mask, 
   }
 }
 
-/// The light that panes leave. A pixel counts where four rays beside its own, at the engine's error, agree.
-void check_panes(FrameStage& stage, const Truth& truth, FrameReport& report) {
+/// The light that panes leave. A pixel counts where the rays beside its own agree.
+void check_panes(FrameStage& stage, const Truth& truth, const std::vector<trace::SurfacePoints>& round,
+                 FrameReport& report) {
   constexpr double kAbsorbance = 2e-3;  // in whole steps, and exponents of them
   const trace::PaneTracer panes(stage.panes());
   const Light& light = stage.setting().input.light;
   const FloatImage found = stage.keeping().transmittance();
   const trace::PaneReference middle = trace::pane_reference(panes, truth.points, light);
-  std::vector<trace::PaneReference> round;
-  const double off = 4.0 * truth.tracer.error_world(100.0 * stage.setting().scale);
-  for (const glm::dvec3& by :
-       {glm::dvec3(off, 0, 0), {-off, 0, 0}, {0, off, 0}, {0, -off, 0}, {0, 0, off}, {0, 0, -off}}) {
-    trace::SurfacePoints moved = truth.points;
-    for (trace::SurfacePoint& p : moved.pixels) p.position += by;
-    round.push_back(trace::pane_reference(panes, moved, light));
-  }
+  std::vector<trace::PaneReference> beside;
+  for (const trace::SurfacePoints& points : round)
+    beside.push_back(trace::pane_reference(panes, points, light));
   for (std::size_t i = 0; i < middle.pixels.size(); ++i) {
     if (truth.hard.pixels[i] != trace::Verdict::lit) continue;
-    const bool sure = std::all_of(round.begin(), round.end(), [&](const trace::PaneReference& r) {
+    const bool sure = std::all_of(beside.begin(), beside.end(), [&](const trace::PaneReference& r) {
       return r.pixels[i] == middle.pixels[i];
     });
     if (!sure) continue;
@@ -274,9 +309,10 @@ void check_mask(FrameStage& stage, FrameReport& report) {
       check_pixel(stage, truth, spaces, normals, i, visibility, static_cast<int>(mask.values[2 * i + 1]),
                   report);
   }
-  if (exact && stage.setting().source.samples == 1) check_exact(stage, truth, mask, report);
-  if (exact && stage.setting().source.samples == 1 && !stage.panes().instances.empty())
-    check_panes(stage, truth, report);
+  if (!exact || stage.setting().source.samples != 1) return;
+  const std::vector<trace::SurfacePoints> round = moved_points(truth, stage);
+  check_exact(stage, truth, mask, round, report);
+  if (!stage.panes().instances.empty()) check_panes(stage, truth, round, report);
 }
 
 }  // namespace gnomon::stress

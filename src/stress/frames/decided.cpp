@@ -138,7 +138,6 @@ std::vector<std::uint32_t> MapSpace::near(const Rectangle& ndc) const {
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
     const Shape3& s = shapes_[i];
-    if (triangles_[i].flat) continue;
     if (s.low.x <= ndc.high.x && s.high.x >= ndc.low.x && s.low.y <= ndc.high.y && s.high.y >= ndc.low.y)
       found.push_back(i);
   }
@@ -255,6 +254,10 @@ Must MapSpace::decide(const Receiver3& r, const Comparing& comparing) const {
   for (const std::uint32_t t : candidates) {
     if (t == r.triangle) continue;
     part(t, r, look.ndc, polygon);
+    if (triangles_[t].flat) {
+      clear = clear && polygon.empty();
+      continue;
+    }
     double highest = -kInfinite;
     for (const Corner& c : polygon) highest = std::max(highest, c.height);
     constexpr double kCoplanar = 1e-9;
@@ -280,6 +283,7 @@ Must MapSpace::decide_even(const Receiver3& r, const Comparing& comparing, doubl
   for (const std::uint32_t t : near(look.ndc)) {
     part(t, r, look.ndc, polygon);
     if (polygon.empty()) continue;
+    if (triangles_[t].flat) return Must::undecided;
     double low = kInfinite, high = -kInfinite;
     for (const Corner& c : polygon) {
       low = std::min(low, c.height);
@@ -310,6 +314,7 @@ Must MapSpace::decide_identifier(const Receiver3& r, const Comparing& comparing,
     if (t == r.triangle) continue;
     part(t, r, look.ndc, polygon);
     if (polygon.empty()) continue;
+    if (triangles_[t].flat) return Must::undecided;
     double highest = -kInfinite;
     for (const Corner& c : polygon) highest = std::max(highest, c.height);
     const bool same = !by_triangle && triangles_[t].instance == own.instance;

@@ -8,7 +8,8 @@
 //   behind it;
 // - dark, where each texel's centre, a square of rounding round it, lies within a triangle that is farther
 //   before the plane than twice the largest bias: each texel then holds that triangle, or what is before it.
-// All other pixels are undecided, and no answer for them is wrong.
+// All other pixels are undecided, and no answer for them is wrong. A triangle without area is none that hides
+// or lights anything; but rasterizers move its corners, and it then may leave any depth along its line.
 #pragma once
 
 #include <array>
