@@ -38,7 +38,7 @@ void save_camera_path(const CameraPath& path, const std::filesystem::path& file)
 
 /// Where sight begins and ends, world units.
 struct Sight {
-  double near_depth = 0.1, far_depth = 100.0;
+  double near_depth = 0.1, far_depth = 100.0;  ///< view depths, 0 < near_depth < far_depth
 };
 /// For an eye that stands anywhere in or before a scene. Sight begins half way to the nearest box that does
 /// not hold the eye. Where another box holds it, sight begins at most at 1e-4 of where it ends. It never

@@ -38,7 +38,7 @@ enum class UpAxis : std::uint8_t {
 struct SunMoment {
   double unix_s = 0.0;  ///< seconds since 1970-01-01T00:00Z
   double zone_s = 0.0;  ///< local time minus UTC, seconds
-  Place place;
+  Place place;          ///< on the earth
 };
 /// Reads text such as "2026-06-21T15:00+02:00@52.5,13.4". The date is of 1900 to 2100, the time has seconds
 /// or not, the zone is Z or hours and minutes. Latitude and longitude follow, then perhaps an altitude in
@@ -51,7 +51,7 @@ struct SunMoment {
 /// When the sun is above an elevation within the 24 hours from `begin_s` on, to the second.
 struct SunHours {
   double rise_s = 0.0, set_s = 0.0;  ///< seconds since 1970; equal where it never is
-  bool never = false, always = false;
+  bool never = false, always = false;  ///< it is below, or above, for all of the 24 hours
 };
 /// `begin_s` is a local midnight: the sun then rises at most once, and sets after that.
 [[nodiscard]] SunHours sun_hours(double begin_s, const Place& place, double elevation_deg = 0.0) noexcept;
