@@ -31,9 +31,11 @@ class Shadows {
   Shadows(const LightPlan& plan, std::span<const DrawnLight> lights) noexcept
       : plan_(&plan), lights_(lights) {}
 
-  /// The plan where it is of that kind, else nullptr.
+  /// The maps of one light, nullptr where the plan is another.
   [[nodiscard]] const ShadowPlan* maps() const noexcept { return of<ShadowPlan>(); }
+  /// The pages of one light, else nullptr.
   [[nodiscard]] const PagePlan* pages() const noexcept { return of<PagePlan>(); }
+  /// Many lights, else nullptr.
   [[nodiscard]] const LightPlan* light_plan() const noexcept { return of<LightPlan>(); }
   /// The lights of a LightPlan, else none.
   [[nodiscard]] std::span<const DrawnLight> lights() const noexcept { return lights_; }

@@ -50,7 +50,7 @@ struct SunMoment {
 
 /// When the sun is above an elevation within the 24 hours from `begin_s` on, to the second.
 struct SunHours {
-  double rise_s = 0.0, set_s = 0.0;  ///< seconds since 1970; equal where it never is
+  double rise_s = 0.0, set_s = 0.0;    ///< seconds since 1970; equal where it never is
   bool never = false, always = false;  ///< it is below, or above, for all of the 24 hours
 };
 /// `begin_s` is a local midnight: the sun then rises at most once, and sets after that.
