@@ -54,10 +54,10 @@ struct Source {
     return {SourceKind::irregular, most > 1 ? most : 1, {}};
   }
   /// Hard shadows by identifiers. Maps of a ShadowPlan hold the number of the caster that the light sees
-  /// first; a surface is lit where that is its own. BiasOptions but for the normal offset has no effect.
-  /// Maps that change are drawn whole. Costs 4 bytes for each texel more. A frame with maps whose shape bends
-  /// lines is drawn from depths, by the filter that was prepared (FrameStats::identified).
-  /// IdentifierTest::neighbours out of range: the nearest.
+  /// first; a surface is lit where that is its own. Depth decides for one that casts no shadow. BiasOptions
+  /// but for the normal offset has no effect. Maps that change are drawn whole. Costs 4 bytes for each texel
+  /// more. A frame with maps whose shape bends lines is drawn from depths, by the filter that was prepared
+  /// (FrameStats::identified). IdentifierTest::neighbours out of range: the nearest.
   [[nodiscard]] static constexpr Source identifiers(const IdentifierTest& test = {}) noexcept {
     constexpr int kMost = kMaxIdentifierNeighbours;
     const int most = test.neighbours < kMost ? test.neighbours : kMost;

@@ -14,11 +14,13 @@ namespace {
 constexpr GLuint kFirstTriangleBinding = 5, kSeenByLightUnit = 8, kSeenByCameraUnit = 9;
 constexpr GLint kByTriangleLocation = 9, kNeighboursLocation = 1;
 
+constexpr std::uint32_t kNoCaster = 0xffff'ffff;  // pass/common/identifier.glsl
+
 Buffer first_triangles(const SceneBuffers& scene) {
   std::vector<std::uint32_t> first;
   std::uint64_t count = 0;
   for (std::uint32_t i = 0; i < scene.boxes().size(); ++i) {
-    first.push_back(static_cast<std::uint32_t>(count));
+    first.push_back(scene.casts(i) ? static_cast<std::uint32_t>(count) : kNoCaster);
     count += scene.triangles_of(i);
   }
   constexpr std::uint64_t kMost = 0xffff'fffe;  // 0 is none

@@ -256,12 +256,12 @@ void MapSource::store(FrameJob& frame) {
 }
 
 void MapSource::mask(FrameJob& frame, GLuint fbo) {
+  maps_.bind();
   if (numbered_) {
     identifiers_->bind(screen_.targets.identifier.name(), frame.filter.source.test.neighbours);
     screen_.fullscreen(fbo, identifiers_->mask());
     return;
   }
-  maps_.bind();
   stored_.bind();
   if (has_silhouettes_) silhouettes_->bind();
   draw_mask(screen_, frame.programs.mask_for(frame.shaped), fbo);

@@ -7,6 +7,8 @@ layout(location = 1) uniform int neighbours;  // texels to either side that may 
 
 float visibility(ShadowLookup at, ShadowMap map, ShadowOptions options) {
   uint own = texelFetch(seen_by_camera, ivec2(gl_FragCoord.xy), 0).r;
+  // Casters alone are in the maps: of others the depth says what is before them.
+  if (own == 0u) return shadow_visibility(shadow_compare, shadow_depth, at, options);
   ivec2 texel = ivec2(floor(at.texel)), last = ivec2(map.interval_size.zw) - 1;
   for (int y = -neighbours; y <= neighbours; ++y) {
     for (int x = -neighbours; x <= neighbours; ++x) {
