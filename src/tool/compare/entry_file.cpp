@@ -197,21 +197,14 @@ void write_masks(const std::filesystem::path& folder, const report::Row& row, co
   make_folder("--out", folder);
   // By its place in the whole sweep: no two rows share it.
   const std::string stem = std::to_string(row.index);
-  Json json{{"format", kFormat},
-            {"technique", row.technique.name()},
-            {"scene", row.scene},
-            {"frame", row.frame},
-            {"frames", row.frames},
-            {"width", row.width},
-            {"height", row.height},
-            {"light", row.light},
-            {"light_elevation_deg", row.light_elevation_deg},
-            {"light_azimuth_deg", row.light_azimuth_deg},
-            {"camera", row.camera},
-            {"animation", row.animation},
-            {"animation_time_s", row.animation_time_s},
-            {"view", camera_json(view.camera)},
-            {"view_before", camera_json(view.before)}};
+  Json json{{"format", kFormat}, {"technique", row.technique.name()}};
+  // The view as rows have it.
+  const Json of_row = Json::parse(report::to_json_line(row));
+  for (const char* key : {"scene", "frame", "frames", "width", "height", "light", "light_elevation_deg",
+                          "light_azimuth_deg", "camera", "animation", "animation_time_s"})
+    if (of_row.contains(key)) json[key] = of_row[key];
+  json["view"] = camera_json(view.camera);
+  json["view_before"] = camera_json(view.before);
   if (const auto* const sun = std::get_if<DirectionalLight>(&view.light)) {
     json["light_direction"] = {sun->direction.x, sun->direction.y, sun->direction.z};
   } else {
