@@ -37,9 +37,9 @@ class ExactResults {
   /// Keeps results in `folder`, which is made when the first is written. `identity`: the program's version,
   /// the scene, its light, and what its files hold.
   ExactResults(std::filesystem::path folder, const std::string& identity);
-  /// The scene is posed as it stands then, seconds.
+  /// Results from now on are of the scene as it stands then, seconds.
   void pose(double seconds) noexcept { seconds_ = seconds; }
-  /// Of a result of this scene, light and pose.
+  /// The key of a result; scene, light and pose are in it.
   [[nodiscard]] ExactKey key(std::string_view what) const;
   /// The `count` values of the key: read from the disk, else computed and written. A file that is damaged is
   /// named in a warning and written again. One that cannot be written is named once; the values are returned
