@@ -101,9 +101,9 @@ class Stage {
   void poll() { posed_.take_tracer(false); }
   /// Begins to sort the triangles where they stand now: worth it once they rest.
   void want_tracer() { posed_.begin_tracer(); }
-  /// nullptr until the triangles are sorted, as they stand now.
-  /// Of each instance as posed.
+  /// The box of each instance, as posed.
   [[nodiscard]] const std::vector<Box>& boxes() const noexcept { return posed_.boxes(); }
+  /// nullptr until the triangles are sorted, as they stand now.
   [[nodiscard]] const trace::Tracer* tracer() const noexcept { return posed_.tracer().get(); }
   /// Compiles one more of the filters that no state has used yet, for maps or for pages; false where all are
   /// compiled.
