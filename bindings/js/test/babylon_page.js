@@ -14,7 +14,7 @@ import { VertexData } from '@babylonjs/core/Meshes/mesh.vertexData.js';
 import { Scene } from '@babylonjs/core/scene.js';
 import { load } from 'gnomon';
 import { GnomonCascadedShadowGenerator, GnomonShadow } from 'gnomon/babylon';
-import { Count, FAR, SCENES, Truth, nearShadow, picture } from './exact.js';
+import { FAR, SCENES, Truth, counted } from './exact.js';
 
 /** Triangles with flat normals. A left-handed world is the mirror image of the one that the rays go through. */
 function vertexData({ geometry, matrix }, side) {
@@ -97,7 +97,8 @@ function techniquesOf(gnomon, size, biases, sweep) {
   return all;
 }
 
-export async function run({ scene, size, picture: [width, height], frames, step = 1, sweep = false, rightHanded = false, instanced = false, reversedDepth = false, biases = SCENES[scene].babylon[size], pictureOf }) {
+export async function run({ scene, size, sweep = false, rightHanded = false, instanced = false, reversedDepth = false, biases = SCENES[scene].babylon[size], ...flight }) {
+  const [width, height] = flight.picture;
   const gnomon = await load();
   const renderer = new THREE.WebGLRenderer({ antialias: false });
   const meshes = await SCENES[scene].meshes();
@@ -123,23 +124,12 @@ export async function run({ scene, size, picture: [width, height], frames, step 
     return pixels;
   };
   const unshadowed = made();
-  const techniques = Object.entries(techniquesOf(gnomon, size, biases, sweep)).map(([name, shadows]) => [name, made(shadows), new Count()]);
-  const pictures = {};
-  let last;
-  for (let i = 0; i < frames; ++i) {
-    SCENES[scene].place(camera, step * i);
-    camera.updateMatrixWorld();
-    const truth = exact.of(camera);
-    const near = nearShadow(truth, width, height);
-    const full = await draw(unshadowed);
-    for (const [name, one, count] of techniques) {
-      const pixels = await draw(one);
-      count.add(pixels, full, truth, near, last);
-      if (i === pictureOf) pictures[name] = picture(pixels, full, truth, width, height);
-    }
-    last = truth;
-  }
+  const techniques = Object.entries(techniquesOf(gnomon, size, biases, sweep)).map(([name, shadows]) => {
+    const one = made(shadows);
+    return [name, () => draw(one)];
+  });
+  const result = await counted({ scene, ...flight }, camera, exact, () => draw(unshadowed), techniques);
   engine.dispose();
   renderer.dispose();
-  return { rows: techniques.map(([technique, , count]) => ({ technique, ...count.shares })), pictures };
+  return result;
 }

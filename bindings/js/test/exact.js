@@ -132,7 +132,7 @@ export class Truth {
 }
 
 /** Pixels with a shadow at most `EDGE_PIXELS` away. */
-export function nearShadow(truth, width, height) {
+function nearShadow(truth, width, height) {
   const spread = (from, step, count, stride, lines) => {
     const to = new Uint8Array(from.length);
     for (let l = 0; l < lines; ++l) {
@@ -148,7 +148,7 @@ export function nearShadow(truth, width, height) {
   return spread(spread(dark, 1, width, width, height), width, height, 1, width);
 }
 
-export class Count {
+class Count {
   constructor() {
     Object.assign(this, { counted: 0, falseShadow: 0, falseLight: 0, acne: 0, steady: 0, flips: 0 });
   }
@@ -176,7 +176,7 @@ export class Count {
 }
 
 /** A picture of what is wrong: false shadow red, false light blue. */
-export function picture(pixels, full, truth, width, height) {
+function picture(pixels, full, truth, width, height) {
   const canvas = document.createElement('canvas');
   [canvas.width, canvas.height] = [width, height];
   const context = canvas.getContext('2d');
@@ -192,4 +192,27 @@ export function picture(pixels, full, truth, width, height) {
   }
   context.putImageData(image, 0, 0);
   return canvas.toDataURL('image/png');
+}
+
+/**
+ * A flight, of which each technique draws every frame, counted against exact rays. `draw` without shadows and those of `techniques`, behind
+ * their names, return pixels of the camera's picture, the lowest row first.
+ */
+export async function counted({ scene, picture: [width, height], frames, step = 1, pictureOf }, camera, exact, draw, techniques) {
+  const counts = techniques.map(() => new Count()), pictures = {};
+  let last;
+  for (let i = 0; i < frames; ++i) {
+    SCENES[scene].place(camera, step * i);
+    camera.updateMatrixWorld();
+    const truth = exact.of(camera);
+    const near = nearShadow(truth, width, height);
+    const full = await draw();
+    for (const [k, [name, drawWith]] of techniques.entries()) {
+      const pixels = await drawWith();
+      counts[k].add(pixels, full, truth, near, last);
+      if (i === pictureOf) pictures[name] = picture(pixels, full, truth, width, height);
+    }
+    last = truth;
+  }
+  return { rows: techniques.map(([technique], k) => ({ technique, ...counts[k].shares })), pictures };
 }

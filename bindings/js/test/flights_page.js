@@ -4,7 +4,7 @@ import { CSM } from 'three/addons/csm/CSM.js';
 import { SunLight } from 'three/addons/lights/SunLight.js';
 import { load } from 'gnomon';
 import { GnomonCSM, GnomonSpotShadow, GnomonSunShadow, ShadowBounds } from 'gnomon/three';
-import { Count, FAR, SCENES, Truth, nearShadow, picture, sceneOf } from './exact.js';
+import { FAR, SCENES, Truth, counted, sceneOf } from './exact.js';
 
 // Depths and lengths along the normal, of SunLight and of CSM: their maps are not equally deep.
 const BIASES = { sun: [[-0.001, -0.002, -0.004], [0, 0.1, 0.2, 0.4]], csm: [[-0.0001, -0.0002, -0.0004], [0, 0.05, 0.1, 0.2]] };
@@ -93,14 +93,15 @@ function techniquesOf(gnomon, camera, { meshes, toSun, lamp, shadowSide, biases 
   return all;
 }
 
-export async function run({ scene, size, picture: [width, height], frames, step = 1, sweep = false, pictureOf }) {
+export async function run({ scene, size, sweep = false, ...flight }) {
+  const [width, height] = flight.picture;
   const gnomon = await load();
   const renderer = new THREE.WebGLRenderer({ antialias: false, preserveDrawingBuffer: true });
   renderer.setSize(width, height, false);
   renderer.outputColorSpace = THREE.LinearSRGBColorSpace;
   renderer.shadowMap.enabled = true;
   const gl = renderer.getContext();
-  const draw = (from, camera) => {
+  const draw = (from) => {
     const pixels = new Uint8Array(4 * width * height);
     renderer.render(from, camera);
     gl.readPixels(0, 0, width, height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
@@ -115,27 +116,15 @@ export async function run({ scene, size, picture: [width, height], frames, step 
   const light = lamp === undefined ? new THREE.DirectionalLight(0xffffff, Math.PI) : spotOf(lamp);
   if (toSun !== undefined) light.position.copy(toSun);
   unshadowed.add(light);
-  const techniques = techniquesOf(gnomon, camera, { ...SCENES[scene], meshes, toSun }, [width, height], size, sweep);
-  const made = {}, counts = {}, pictures = {};
-  let last;
-  for (let i = 0; i < frames; ++i) {
-    SCENES[scene].place(camera, step * i);
-    camera.updateMatrixWorld();
-    const truth = exact.of(camera);
-    const near = nearShadow(truth, width, height);
-    const full = draw(unshadowed, camera);
-    for (const [name, make] of Object.entries(techniques)) {
-      // CSM replaces text of three's shaders: those of the sun are compiled before it comes.
-      made[name] ??= make();
-      counts[name] ??= new Count();
-      made[name].prepare();
-      const pixels = draw(made[name].scene, camera);
-      counts[name].add(pixels, full, truth, near, last);
-      if (i === pictureOf) pictures[name] = picture(pixels, full, truth, width, height);
-    }
-    last = truth;
-  }
+  const made = {};
+  const techniques = Object.entries(techniquesOf(gnomon, camera, { ...SCENES[scene], meshes, toSun }, [width, height], size, sweep)).map(([name, make]) => [name, () => {
+    // CSM replaces text of three's shaders: those of the sun are compiled before it comes.
+    made[name] ??= make();
+    made[name].prepare();
+    return draw(made[name].scene);
+  }]);
+  const result = await counted({ scene, ...flight }, camera, exact, () => draw(unshadowed), techniques);
   for (const one of Object.values(made)) one.dispose();
   renderer.dispose();
-  return { rows: Object.entries(counts).map(([technique, count]) => ({ technique, ...count.shares })), pictures };
+  return result;
 }

@@ -4,7 +4,7 @@ import * as pc from 'playcanvas';
 import * as THREE from 'three';
 import { load } from 'gnomon';
 import { GnomonCascades } from 'gnomon/playcanvas';
-import { Count, FAR, SCENES, Truth, nearShadow, picture } from './exact.js';
+import { FAR, SCENES, Truth, counted } from './exact.js';
 
 /** An app whose picture is its light times the cosine, read by draw(). Lights are switched: one at a time is on. */
 export function world({ width, height, meshes, far = FAR, near = 0.2, fov = 57 }) {
@@ -89,7 +89,8 @@ function techniquesOf(gnomon, { app, light }, toSun, size, cascades, biases, swe
   return all;
 }
 
-export async function run({ scene, size, picture: [width, height], frames, step = 1, sweep = false, cascades = 4, biases = SCENES[scene].playcanvas[size], pictureOf }) {
+export async function run({ scene, size, sweep = false, cascades = 4, biases = SCENES[scene].playcanvas[size], ...flight }) {
+  const [width, height] = flight.picture;
   const gnomon = await load();
   const renderer = new THREE.WebGLRenderer({ antialias: false });
   const meshes = await SCENES[scene].meshes();
@@ -98,23 +99,13 @@ export async function run({ scene, size, picture: [width, height], frames, step 
   const exact = new Truth(renderer, meshes, toSun, [width, height]);
   const place = world({ width, height, meshes });
   const unshadowed = place.light(toSun.toArray(), { castShadows: false });
-  const techniques = techniquesOf(gnomon, place, toSun.toArray(), size, cascades, biases, sweep).map(([name, sun]) => [name, sun, new Count()]);
-  const pictures = {};
-  let last;
-  for (let i = 0; i < frames; ++i) {
-    SCENES[scene].place(camera, step * i);
+  const draw = (sun) => {
     follow(place.eye, camera);
-    const truth = exact.of(camera);
-    const near = nearShadow(truth, width, height);
-    const full = place.draw(unshadowed);
-    for (const [name, sun, count] of techniques) {
-      const pixels = place.draw(sun);
-      count.add(pixels, full, truth, near, last);
-      if (i === pictureOf) pictures[name] = picture(pixels, full, truth, width, height);
-    }
-    last = truth;
-  }
+    return place.draw(sun);
+  };
+  const techniques = techniquesOf(gnomon, place, toSun.toArray(), size, cascades, biases, sweep).map(([name, sun]) => [name, () => draw(sun)]);
+  const result = await counted({ scene, ...flight }, camera, exact, () => draw(unshadowed), techniques);
   place.app.destroy();
   renderer.dispose();
-  return { rows: techniques.map(([technique, , count]) => ({ technique, ...count.shares })), pictures };
+  return result;
 }
