@@ -12,7 +12,10 @@ void check(VkResult result, const char* call) {
   if (result != VK_SUCCESS) throw VulkanError(std::string(call) + " failed with " + std::to_string(result));
 }
 
-constexpr const char* kNoDevice = "no device with Vulkan 1.3 (Debian: mesa-vulkan-drivers)";
+constexpr const char* kNoDevice =
+    "no device with Vulkan 1.2, dynamic rendering and synchronization 2 (Debian: mesa-vulkan-drivers)";
+constexpr std::array kExtensions{VK_KHR_DYNAMIC_RENDERING_EXTENSION_NAME,
+                                 VK_KHR_SYNCHRONIZATION_2_EXTENSION_NAME};
 constexpr const char* kValidation = "VK_LAYER_KHRONOS_validation";
 
 bool has_layer(const char* name) {
@@ -22,6 +25,18 @@ bool has_layer(const char* name) {
   vkEnumerateInstanceLayerProperties(&count, layers.data());
   return std::any_of(layers.begin(), layers.end(), [name](const VkLayerProperties& layer) {
     return std::strcmp(layer.layerName, name) == 0;
+  });
+}
+
+bool has_extensions(VkPhysicalDevice device) {
+  std::uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> has(count);
+  vkEnumerateDeviceExtensionProperties(device, nullptr, &count, has.data());
+  return std::all_of(kExtensions.begin(), kExtensions.end(), [&has](const char* name) {
+    return std::any_of(has.begin(), has.end(), [name](const VkExtensionProperties& extension) {
+      return std::strcmp(extension.extensionName, name) == 0;
+    });
   });
 }
 
@@ -44,7 +59,7 @@ void Device::make_instance(bool validated) {
     return VK_FALSE;
   };
   VkApplicationInfo application{VK_STRUCTURE_TYPE_APPLICATION_INFO};
-  application.apiVersion = VK_API_VERSION_1_3;
+  application.apiVersion = VK_API_VERSION_1_2;
   const char* const extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
   VkInstanceCreateInfo info{VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO};
   info.pApplicationInfo = &application;
@@ -61,6 +76,8 @@ void Device::make_instance(bool validated) {
   const auto create = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
       vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
   check(create(instance_, &messenger, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
+  calls_.insert_label = reinterpret_cast<PFN_vkQueueInsertDebugUtilsLabelEXT>(
+      vkGetInstanceProcAddr(instance_, "vkQueueInsertDebugUtilsLabelEXT"));
 }
 
 void Device::choose_device() {
@@ -71,7 +88,7 @@ void Device::choose_device() {
   for (const VkPhysicalDevice device : devices) {
     VkPhysicalDeviceProperties properties;
     vkGetPhysicalDeviceProperties(device, &properties);
-    if (properties.apiVersion < VK_API_VERSION_1_3) continue;
+    if (properties.apiVersion < VK_API_VERSION_1_2 || !has_extensions(device)) continue;
     physical_ = device;
     const std::uint32_t version = properties.apiVersion;
     name_ = std::string(properties.deviceName) + ", Vulkan " + std::to_string(VK_API_VERSION_MAJOR(version)) +
@@ -88,9 +105,13 @@ void Device::choose_device() {
   multiview_ = v11.multiview == VK_TRUE;
   layer_by_vertex_ = v12.shaderOutputLayer == VK_TRUE;
 
-  VkPhysicalDeviceVulkan13Features use13{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-  use13.dynamicRendering = use13.synchronization2 = VK_TRUE;
-  VkPhysicalDeviceVulkan12Features use12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &use13};
+  VkPhysicalDeviceDynamicRenderingFeaturesKHR rendering{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES_KHR};
+  VkPhysicalDeviceSynchronization2FeaturesKHR synchronization{
+      VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES_KHR, &rendering};
+  rendering.dynamicRendering = synchronization.synchronization2 = VK_TRUE;
+  VkPhysicalDeviceVulkan12Features use12{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES,
+                                         &synchronization};
   use12.shaderOutputLayer = v12.shaderOutputLayer;
   VkPhysicalDeviceVulkan11Features use11{VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, &use12};
   use11.multiview = v11.multiview;
@@ -102,8 +123,20 @@ void Device::choose_device() {
   VkDeviceCreateInfo info{VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &use11};
   info.queueCreateInfoCount = 1;
   info.pQueueCreateInfos = &queue;
+  info.enabledExtensionCount = kExtensions.size();
+  info.ppEnabledExtensionNames = kExtensions.data();
   check(vkCreateDevice(physical_, &info, nullptr, &device_), "vkCreateDevice");
   vkGetDeviceQueue(device_, 0, 0, &queue_);
+}
+
+void Device::load_calls() {
+  const auto load = [this](auto& call, const char* name) {
+    call = reinterpret_cast<std::remove_reference_t<decltype(call)>>(vkGetDeviceProcAddr(device_, name));
+  };
+  load(calls_.begin_rendering, "vkCmdBeginRenderingKHR");
+  load(calls_.end_rendering, "vkCmdEndRenderingKHR");
+  load(calls_.barrier, "vkCmdPipelineBarrier2KHR");
+  load(calls_.submit, "vkQueueSubmit2KHR");
 }
 
 void Device::make_layout() {
@@ -137,6 +170,7 @@ void Device::make_layout() {
 Device::Device(bool validated) {
   make_instance(validated);
   choose_device();
+  load_calls();
   make_layout();
 }
 
@@ -359,12 +393,19 @@ void Device::run(const std::function<void(VkCommandBuffer)>& record) {
   VkSubmitInfo2 submit{VK_STRUCTURE_TYPE_SUBMIT_INFO_2};
   submit.commandBufferInfoCount = 1;
   submit.pCommandBufferInfos = &submitted;
-  check(vkQueueSubmit2(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit2");
+  check(calls_.submit(queue_, 1, &submit, VK_NULL_HANDLE), "vkQueueSubmit2");
   check(vkQueueWaitIdle(queue_), "vkQueueWaitIdle");
   vkFreeCommandBuffers(device_, commands_, 1, &commands);
 }
 
-void barrier(VkCommandBuffer commands, const Image& image, const Use& from, const Use& to) {
+void Device::label(const char* text) {
+  if (calls_.insert_label == nullptr) return;
+  VkDebugUtilsLabelEXT label{VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
+  label.pLabelName = text;
+  calls_.insert_label(queue_, &label);
+}
+
+void Device::barrier(VkCommandBuffer commands, const Image& image, const Use& from, const Use& to) const {
   VkImageMemoryBarrier2 of{VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
   of.srcStageMask = from.stages;
   of.srcAccessMask = from.access;
@@ -378,10 +419,10 @@ void barrier(VkCommandBuffer commands, const Image& image, const Use& from, cons
   VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   info.imageMemoryBarrierCount = 1;
   info.pImageMemoryBarriers = &of;
-  vkCmdPipelineBarrier2(commands, &info);
+  calls_.barrier(commands, &info);
 }
 
-void barrier(VkCommandBuffer commands, const Use& from, const Use& to) {
+void Device::barrier(VkCommandBuffer commands, const Use& from, const Use& to) const {
   VkMemoryBarrier2 of{VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
   of.srcStageMask = from.stages;
   of.srcAccessMask = from.access;
@@ -390,7 +431,7 @@ void barrier(VkCommandBuffer commands, const Use& from, const Use& to) {
   VkDependencyInfo info{VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
   info.memoryBarrierCount = 1;
   info.pMemoryBarriers = &of;
-  vkCmdPipelineBarrier2(commands, &info);
+  calls_.barrier(commands, &info);
 }
 
 }  // namespace sample

@@ -1,4 +1,5 @@
-// The part of Vulkan 1.3 that every program needs: an instance with validation, a device, memory, pipelines.
+// The part of Vulkan that every program needs: an instance with validation, a device, memory, pipelines. It
+// is Vulkan 1.2 with dynamic rendering and synchronization 2: RenderDoc hides 1.3 on some drivers.
 // Nothing here is about shadows.
 #pragma once
 
@@ -34,6 +35,13 @@ struct Image {
   VkFormat format = VK_FORMAT_UNDEFINED;
   VkExtent2D size{};
   VkImageAspectFlags aspect = 0;
+};
+
+/// How an image or a buffer is used before or after a barrier.
+struct Use {
+  VkPipelineStageFlags2 stages;
+  VkAccessFlags2 access;
+  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
 };
 
 using Spirv = std::span<const std::uint32_t>;
@@ -74,15 +82,33 @@ class Device {
 
   /// Records commands, submits them, and waits for their end.
   void run(const std::function<void(VkCommandBuffer)>& record);
+  /// A label between submissions, for tools that listen; nothing without validation.
+  void label(const char* text);
+  void begin_rendering(VkCommandBuffer commands, const VkRenderingInfo& info) const {
+    calls_.begin_rendering(commands, &info);
+  }
+  void end_rendering(VkCommandBuffer commands) const { calls_.end_rendering(commands); }
+  /// Waits in the command buffer: what `from` wrote may be read by `to`, and the image goes from one layout
+  /// to the other.
+  void barrier(VkCommandBuffer commands, const Image& image, const Use& from, const Use& to) const;
+  void barrier(VkCommandBuffer commands, const Use& from, const Use& to) const;  ///< of all buffers
 
  private:
   struct Messages {
     int count = 0;
     std::string first;
   };
+  struct Calls {  // of extensions
+    PFN_vkQueueInsertDebugUtilsLabelEXT insert_label = nullptr;
+    PFN_vkCmdBeginRenderingKHR begin_rendering = nullptr;
+    PFN_vkCmdEndRenderingKHR end_rendering = nullptr;
+    PFN_vkCmdPipelineBarrier2KHR barrier = nullptr;
+    PFN_vkQueueSubmit2KHR submit = nullptr;
+  };
   [[nodiscard]] VkDeviceMemory allocate(const VkMemoryRequirements& needs, VkMemoryPropertyFlags flags);
   void make_instance(bool validated);
   void choose_device();
+  void load_calls();
   void make_layout();
 
   std::unique_ptr<Messages> messages_ = std::make_unique<Messages>();
@@ -90,6 +116,7 @@ class Device {
   VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
   VkPhysicalDevice physical_ = VK_NULL_HANDLE;
   VkDevice device_ = VK_NULL_HANDLE;
+  Calls calls_;
   VkQueue queue_ = VK_NULL_HANDLE;
   VkCommandPool commands_ = VK_NULL_HANDLE;
   VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
@@ -99,16 +126,6 @@ class Device {
   bool multiview_ = false, layer_by_vertex_ = false;
   std::vector<std::function<void()>> at_end_;  // in the order of making
 };
-
-/// Waits in the command buffer: what `from` wrote may be read by `to`, and the image goes from one layout to
-/// the other.
-struct Use {
-  VkPipelineStageFlags2 stages;
-  VkAccessFlags2 access;
-  VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-};
-void barrier(VkCommandBuffer commands, const Image& image, const Use& from, const Use& to);
-void barrier(VkCommandBuffer commands, const Use& from, const Use& to);  ///< of all buffers
 
 inline constexpr Use kNothing{VK_PIPELINE_STAGE_2_NONE, VK_ACCESS_2_NONE};
 inline constexpr Use kDrawDepth{

@@ -1,6 +1,7 @@
 // How good are gnomon's maps in a Vulkan engine, beside the cascades that engines ship? A walk down a street
 // at equal texels, by one shader with one translated bias, against exact rays.
-//   vulkan_sample [PICTURE.png] [--no-validation]
+//   vulkan_sample [PICTURE.png] [--no-validation] [--matrices FILE.json]
+// FILE.json gets the matrices of the first frame's maps, a line for each row of the table.
 // Ends with 1 where validation speaks, matrices on the device differ from the plan's, one pass over all maps
 // draws other shadows than a pass a map, or gnomon's maps have more misclassified pixels than the ordinary
 // ones.
@@ -8,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
 #include <functional>
 #include <string>
 
@@ -76,8 +78,29 @@ std::vector<Way> ways(const Street& street, const gnomon::PlanOptions& options) 
           {"gnomon, default", true, own(options), {}, {}, {}}};
 }
 
+/// A line of JSON: the matrices that draw the plan's maps, column by column, with all of their bits.
+std::string matrices_line(const gnomon::ShadowPlan& plan) {
+  std::string line;
+  for (const gnomon::ShadowMap& map : plan.maps()) {
+    line += line.empty() ? "[[" : "], [";
+    for (int i = 0; i < 16; ++i) {
+      std::array<char, 24> number{};
+      std::snprintf(number.data(), number.size(), "%s%.9g", i == 0 ? "" : ", ",
+                    static_cast<double>(map.clip_from_camera_relative[i / 4][i % 4]));
+      line += number.data();
+    }
+  }
+  return line + "]]\n";
+}
+
+/// Files to write, or null.
+struct Files {
+  const char* picture = nullptr;
+  const char* matrices = nullptr;
+};
+
 Faults draw_walk(Device& device, const Street& street, const gnomon::PlanOptions& options,
-                 std::vector<Way>& all, const char* picture) {
+                 std::vector<Way>& all, const Files& files) {
   std::vector<Vertex> vertices;
   for (const gnomon::Box& box : street.boxes) append_box(box, vertices);
   const Buffer buffer =
@@ -87,6 +110,7 @@ Faults draw_walk(Device& device, const Street& street, const gnomon::PlanOptions
   View view(device, kWidth, kHeight, buffer.handle, static_cast<std::uint32_t>(vertices.size()), shadows);
 
   Faults faults;
+  std::string matrices;
   for (int frame = 0; frame < kFrames; ++frame) {
     const gnomon::Camera camera = street.camera(frame, kWidth, kHeight);
     const ExactPicture exact = exact_picture(street, camera);
@@ -102,7 +126,11 @@ Faults draw_walk(Device& device, const Street& street, const gnomon::PlanOptions
         });
         return view.read();
       };
+      // RenderDoc begins and ends a capture at these labels, in programs that present no frames, too.
+      if (frame == 0) device.label("capture-marker,begin_capture");
       const Drawn drawn = draw(Shadows::Passes::one_per_map);
+      if (frame == 0) device.label("capture-marker,end_capture");
+      if (frame == 0) matrices += matrices_line(plan);
       faults.maps += plan.map_count;
       faults.unlike += shadows.holds(plan) ? 0 : plan.map_count;
       for (const auto& [passes, unlike] : {std::pair{Shadows::Passes::layered, &faults.layered},
@@ -115,9 +143,11 @@ Faults draw_walk(Device& device, const Street& street, const gnomon::PlanOptions
       way.m_p95.push_back(gnomon::measure(plan, camera, {street.boxes, street.boxes}).p95);
       pictures.push_back(drawn);
     }
-    if (frame == 0 && picture != nullptr)
-      write_pictures(picture, exact, std::array{pictures[0], pictures[3]});
+    if (frame == 0 && files.picture != nullptr)
+      write_pictures(files.picture, exact, std::array{pictures[0], pictures[3]});
   }
+  if (files.matrices != nullptr && !(std::ofstream(files.matrices) << matrices << std::flush))
+    throw VulkanError(std::string("cannot write ") + files.matrices);
   return faults;
 }
 
@@ -133,7 +163,7 @@ void time_set_ups(const Street& street, std::vector<Way>& all) {
   }
 }
 
-int run(const char* picture, bool validated) {
+int run(const Files& files, bool validated) {
   const Street street;
   gnomon::PlanOptions options;
   options.cascades = kMaps;
@@ -148,7 +178,7 @@ int run(const char* picture, bool validated) {
     std::printf("%s%s\n%d frames of %d x %d pixels, %d maps of %d x %d texels, depths reversed\n\n",
                 device.name().c_str(), validated ? "" : ", not validated", kFrames, kWidth, kHeight, kMaps,
                 kTexels, kTexels);
-    faults = draw_walk(device, street, options, all, picture);
+    faults = draw_walk(device, street, options, all, files);
     messages = device.messages();
     if (messages > 0) std::fprintf(stderr, "validation: %s\n", device.first_message().c_str());
     // llvmpipe of Mesa 22.3 draws the inside of triangles of every view into the first layer.
@@ -185,20 +215,22 @@ int run(const char* picture, bool validated) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const char* picture = nullptr;
+  Files files;
   bool validated = true;
   for (int i = 1; i < argc; ++i) {
     if (std::strcmp(argv[i], "--no-validation") == 0) {
       validated = false;
-    } else if (argv[i][0] == '-' || picture != nullptr) {
-      std::fprintf(stderr, "usage: vulkan_sample [PICTURE.png] [--no-validation]\n");
+    } else if (std::strcmp(argv[i], "--matrices") == 0 && i + 1 < argc) {
+      files.matrices = argv[++i];
+    } else if (argv[i][0] == '-' || files.picture != nullptr) {
+      std::fprintf(stderr, "usage: vulkan_sample [PICTURE.png] [--no-validation] [--matrices FILE.json]\n");
       return 2;
     } else {
-      picture = argv[i];
+      files.picture = argv[i];
     }
   }
   try {
-    return run(picture, validated);
+    return run(files, validated);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "vulkan_sample: %s\n", error.what());
     return 2;

@@ -72,7 +72,7 @@ void Shadows::begin(VkCommandBuffer commands, VkImageView view, Passes passes, f
   info.layerCount = passes == Passes::layered ? layers : 1;
   info.viewMask = passes == Passes::multiview ? (1u << layers) - 1 : 0;
   info.pDepthAttachment = &depth;
-  vkCmdBeginRendering(commands, &info);
+  device_.begin_rendering(commands, info);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines_[static_cast<std::size_t>(passes)]);
   const VkViewport viewport{0, 0, static_cast<float>(maps_.size.width), static_cast<float>(maps_.size.height),
                             0, 1};
@@ -84,10 +84,10 @@ void Shadows::begin(VkCommandBuffer commands, VkImageView view, Passes passes, f
 void Shadows::record(VkCommandBuffer commands, VkDescriptorSet bound, const gnomon::ShadowPlan& plan,
                      const gnomon::BiasOptions& bias, std::span<const gnomon::Box> casters, Passes passes) {
   const ShadowData data = data_of(plan, bias);
-  barrier(commands, kUniform, kWriteByCopy);
+  device_.barrier(commands, kUniform, kWriteByCopy);
   vkCmdUpdateBuffer(commands, data_.handle, 0, sizeof data, &data);
-  barrier(commands, kWriteByCopy, kUniform);
-  barrier(commands, maps_, {kSample.stages, VK_ACCESS_2_NONE}, kDrawDepth);
+  device_.barrier(commands, kWriteByCopy, kUniform);
+  device_.barrier(commands, maps_, {kSample.stages, VK_ACCESS_2_NONE}, kDrawDepth);
 
   const VkDeviceSize start = 0;
   vkCmdBindVertexBuffers(commands, 0, 1, &vertices_, &start);
@@ -112,24 +112,24 @@ void Shadows::record(VkCommandBuffer commands, VkDescriptorSet bound, const gnom
     begin(commands, maps_.layer_views[i], passes, slope);
     push(static_cast<int>(i));
     for (std::size_t k = 0; k < count; ++k) draw(drawn[k]);
-    vkCmdEndRendering(commands);
+    device_.end_rendering(commands);
   }
   if (passes != Passes::one_per_map) {
     begin(commands, maps_.view, passes, slope);
     push(0);
     for (std::uint32_t caster = 0; caster < in_any.size(); ++caster)
       if (in_any[caster]) draw(caster);
-    vkCmdEndRendering(commands);
+    device_.end_rendering(commands);
   }
-  barrier(commands, maps_, kDrawDepth, kSample);
+  device_.barrier(commands, maps_, kDrawDepth, kSample);
 }
 
 bool Shadows::holds(const gnomon::ShadowPlan& plan) {
   device_.run([&](VkCommandBuffer commands) {
-    barrier(commands, kWriteByCopy, kReadByCopy);
+    device_.barrier(commands, kWriteByCopy, kReadByCopy);
     const VkBufferCopy all{0, 0, sizeof(ShadowData)};
     vkCmdCopyBuffer(commands, data_.handle, read_.handle, 1, &all);
-    barrier(commands, kWriteByCopy, kReadByHost);
+    device_.barrier(commands, kWriteByCopy, kReadByHost);
   });
   const gnomon::ShaderBlock block = gnomon::shader_block(plan);
   bool same = std::memcmp(read_.mapped + offsetof(ShadowData, block), &block, sizeof block) == 0;

@@ -42,9 +42,9 @@ View::View(Device& device, int width, int height, VkBuffer vertices, std::uint32
       bound_(device.bind(shadows.data(), shadows.maps(), device.make_comparing_sampler())) {}
 
 void View::record(VkCommandBuffer commands, const gnomon::Camera& camera) {
-  barrier(commands, color_, {kReadByCopy.stages, VK_ACCESS_2_NONE}, kDrawColor);
-  barrier(commands, lit_, {kReadByCopy.stages, VK_ACCESS_2_NONE}, kDrawColor);
-  barrier(commands, depth_, {kDrawDepth.stages, kDrawDepth.access}, kDrawDepth);
+  device_.barrier(commands, color_, {kReadByCopy.stages, VK_ACCESS_2_NONE}, kDrawColor);
+  device_.barrier(commands, lit_, {kReadByCopy.stages, VK_ACCESS_2_NONE}, kDrawColor);
+  device_.barrier(commands, depth_, {kDrawDepth.stages, kDrawDepth.access}, kDrawDepth);
 
   std::array<VkRenderingAttachmentInfo, 3> targets{};
   const std::array<VkImageView, 3> views{color_.view, lit_.view, depth_.view};
@@ -63,7 +63,7 @@ void View::record(VkCommandBuffer commands, const gnomon::Camera& camera) {
   info.colorAttachmentCount = 2;
   info.pColorAttachments = targets.data();
   info.pDepthAttachment = &targets[2];
-  vkCmdBeginRendering(commands, &info);
+  device_.begin_rendering(commands, info);
   vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline_);
   const VkViewport viewport{
       0, 0, static_cast<float>(color_.size.width), static_cast<float>(color_.size.height), 0, 1};
@@ -83,10 +83,10 @@ void View::record(VkCommandBuffer commands, const gnomon::Camera& camera) {
   vkCmdPushConstants(commands, device_.layout(), VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT, 0,
                      sizeof push, &push);
   vkCmdDraw(commands, vertex_count_, 1, 0, 0);
-  vkCmdEndRendering(commands);
+  device_.end_rendering(commands);
 
   const auto copy = [&](const Image& image, const Buffer& to) {
-    barrier(commands, image, kDrawColor, kReadByCopy);
+    device_.barrier(commands, image, kDrawColor, kReadByCopy);
     VkBufferImageCopy region{};
     region.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     region.imageExtent = {image.size.width, image.size.height, 1};
@@ -94,7 +94,7 @@ void View::record(VkCommandBuffer commands, const gnomon::Camera& camera) {
   };
   copy(color_, color_read_);
   copy(lit_, lit_read_);
-  barrier(commands, kWriteByCopy, kReadByHost);
+  device_.barrier(commands, kWriteByCopy, kReadByHost);
 }
 
 Drawn View::read() const {
