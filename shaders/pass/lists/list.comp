@@ -17,10 +17,12 @@ vec3 lifted(ivec2 pixel, Surface s, vec3 light, int map) {
   const float kGrazing = 1e-3;  // a ray that only grazes its plane leaves it too slowly: gnomon::trace::kGrazingCosine
   vec3 at = light_from_point(map, s.position);
   float away = local_light() ? length(s.position - frame.light_place.xyz) : 0.0;
-  float height = light_frames.light.y + light_frames.light.z * away - texelFetch(height_image, pixel, 0).r;
+  // Coordinates are relative to the camera, which may be farther off than the scene is wide.
+  float least = max(light_frames.light.y, light_frames.light.z * length(s.position)) + light_frames.light.z * away;
+  float height = least - texelFetch(height_image, pixel, 0).r;
   float lift = height / max(-dot(s.normal, light), kGrazing);
   if (!local_light()) return vec3(at.xy, at.z - lift);
-  return vec3(at.xy / at.z, at.z * (1.0 - lift / max(away, 1e-30)));
+  return vec3(at.xy / at.z, away - lift);
 }
 
 void list(ivec2 pixel, uint index, Surface s, vec3 light, int map) {

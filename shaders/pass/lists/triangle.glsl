@@ -19,7 +19,8 @@ bool shadows(vec3 at) {
   float sum = weights.x + weights.y + weights.z;
   if (sum == 0.0) return false;
   weights /= sum;
-  vec3 depth = vec3(corner[0].z, corner[1].z, corner[2].z);
+  vec3 way = local ? normalize(vec3(at.xy, 1.0)) : vec3(0.0, 0.0, 1.0);
+  vec3 depth = vec3(dot(corner[0], way), dot(corner[1], way), dot(corner[2], way));
   if (!(dot(weights, depth - at.z) < 0.0)) return false;       // not between the light and the point
   if (local && !(dot(weights, depth) > 0.0)) return false;  // behind the light
   return is_there(weights);

@@ -23,20 +23,36 @@ constexpr GLint kSamplesLocation = 0;
 constexpr std::uint64_t kPixelBytes = 16;
 constexpr std::uint32_t kShadowed = 0x8000'0000u;
 
-/// A direction from a local light whose angle to all rays of its map is less than a right one: the mean of
-/// the rays through the map's corners. `otherwise`: for a map without an inverse.
+/// The axis of the narrowest cone from a local light that holds its map: the middle of two of the rays
+/// through the map's corners, or of three. Their mean may be at more than a right angle to one of them where
+/// a warp turns the map aside. `otherwise`: for a map without an inverse.
 glm::dvec3 axis_of(const ShadowMap& map, const glm::dvec3& otherwise) noexcept {
   // Rays through the light stay rays: x, y and w vanish at it, and are linear in the way from it.
   const glm::dmat4& m = map.clip_from_world;
   const glm::dmat3 xyw_from_way(m[0][0], m[0][1], m[0][3], m[1][0], m[1][1], m[1][3], m[2][0], m[2][1],
                                 m[2][3]);
   const glm::dmat3 way_from_xyw = glm::inverse(xyw_from_way);
-  glm::dvec3 sum(0.0);
-  for (const glm::dvec2& corner :
-       {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)})
-    sum += glm::normalize(way_from_xyw * glm::dvec3(corner, 1.0));
-  const double size = glm::length(sum);
-  return size > 0.0 && std::isfinite(size) ? sum / size : otherwise;
+  std::array<glm::dvec3, 4> ray;
+  for (std::size_t i = 0; i < ray.size(); ++i)
+    ray[i] = glm::normalize(way_from_xyw * glm::dvec3(i % 2 == 0 ? -1 : 1, i < 2 ? -1 : 1, 1));
+  glm::dvec3 axis = otherwise;
+  double widest = -2.0;  // cosine of the widest angle to a ray
+  const auto take_if_narrower = [&](const glm::dvec3& along) {
+    const glm::dvec3 unit = glm::normalize(along);
+    double least = glm::dot(unit, ray[0]);  // no number stays none
+    for (const glm::dvec3& r : ray) least = std::min(least, glm::dot(unit, r));
+    if (!(least > widest)) return;
+    axis = unit;
+    widest = least;
+  };
+  for (std::size_t i = 0; i < 4; ++i) {
+    const glm::dvec3 &a = ray[(i + 1) % 4], &b = ray[(i + 2) % 4], &c = ray[(i + 3) % 4];
+    const glm::dvec3 round = glm::cross(b - a, c - a);
+    take_if_narrower(round);
+    take_if_narrower(-round);
+    for (std::size_t k = 0; k < i; ++k) take_if_narrower(ray[i] + ray[k]);
+  }
+  return axis;
 }
 
 std::uint64_t entries_of(glm::ivec2 frame, int samples) noexcept {
@@ -65,8 +81,7 @@ LightFrames light_frames(const ShadowPlan& plan, const Camera& camera, double sc
     for (std::size_t r = 0; r < 3; ++r)
       frames.row[3 * i + r] = glm::vec4(glm::dvec4(axes[r], -glm::dot(axes[r], origin)));
   }
-  frames.light =
-      glm::vec4(glm::dvec4(local ? 1.0 : 0.0, kRounding * scene_diagonal, local ? kRounding : 0.0, 0.0));
+  frames.light = glm::vec4(glm::dvec4(local ? 1.0 : 0.0, kRounding * scene_diagonal, kRounding, 0.0));
   return frames;
 }
 

@@ -228,8 +228,8 @@ double list_rounding(const Truth& truth, const FrameStage& stage) {
   return kRounding * (3.0 * size + away);
 }
 
-/// The same points, moved to six sides by more than lists round: those that start higher do so by at least
-/// twice of what lists lift them. An answer that holds at all of them is one that lists promise.
+/// The same points, moved by more than lists round: to six sides, and along their rays by twice of what lists
+/// lift them. An answer that holds at all of them is one that lists promise.
 std::vector<trace::SurfacePoints> moved_points(const Truth& truth, const FrameStage& stage) {
   const double off = 4.0 * list_rounding(truth, stage);
   std::vector<trace::SurfacePoints> all;
@@ -238,6 +238,9 @@ std::vector<trace::SurfacePoints> moved_points(const Truth& truth, const FrameSt
     trace::SurfacePoints& moved = all.emplace_back(truth.points);
     for (trace::SurfacePoint& p : moved.pixels) p.position += by;
   }
+  // Lists lift a point off its plane by no more than their rounding, however slowly its ray leaves it.
+  trace::SurfacePoints& later = all.emplace_back(truth.points);
+  for (trace::SurfacePoint& p : later.pixels) p.above -= 0.5 * off;
   return all;
 }
 

@@ -84,6 +84,37 @@ struct Stage {
   }
 };
 
+TEST(LightFrames, the_axis_of_a_warped_map_is_at_less_than_a_right_angle_to_all_of_its_rays) {
+  std::mt19937 random(5);
+  const auto any = [&random](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  int warped = 0;
+  for (int i = 0; i < 400; ++i) {
+    const Camera camera = perspective_camera({any(-5, 5), 4.0, any(-5, 5)}, {any(-1, 1), any(-1, 0), 1.0},
+                                             {0, 1, 0}, any(0.5, 1.5), 1.0, 0.5, 30.0, 100, 100);
+    const SpotLight light{
+        {any(-3, 3), any(0.5, 5), any(0, 8)}, {any(-1, 1), any(-1, 0), any(-1, 1)}, 1.047, 10.0};
+    const std::array<Box, 2> boxes{{{{-10, 0, -12}, {10, 0, 12}}, {{any(-3, 0), any(1, 3), -1}, {1, 6, 1}}}};
+    for (const Warp* warp : all_warps()) {
+      const ShadowPlan plan =
+          make_plan(camera, light, {boxes, boxes}, plan_options(std::string(warp->name).c_str(), 1));
+      const LightFrames frames = light_frames(plan, camera, 30.0);
+      for (std::size_t m = 0; m < plan.maps().size(); ++m) {
+        warped += plan.map[m].kappa != 0.0 ? 1 : 0;
+        const glm::dmat4 world_from_clip = glm::inverse(plan.map[m].clip_from_world);
+        for (const glm::dvec2& corner :
+             {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(-1, 1), glm::dvec2(1, 1)}) {
+          const glm::dvec4 end = world_from_clip * glm::dvec4(corner, 0.5, 1.0);
+          const glm::dvec3 ray = glm::normalize(glm::dvec3(end) / end.w - light.position);
+          EXPECT_GT(glm::dot(glm::dvec3(frames.row[3 * m + 2]), ray), 0.0) << i << " " << warp->name;
+        }
+      }
+    }
+  }
+  EXPECT_GT(warped, 300);
+}
+
 TEST_F(Irregular, box_casts_the_shadow_that_geometry_says) {
   const Scene scene = box_on_ground();
   const Camera camera = camera_on_box(kSize, kSize);
