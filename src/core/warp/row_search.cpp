@@ -23,6 +23,10 @@ constexpr std::size_t kFan = 4;
 constexpr float kLeastSine2 = 0.01F;
 // Keep divisors away from zero, and products within single precision: what goes beyond is far from the best.
 constexpr float kNothing = 1e-30F, kFar = 1e14F, kWidest = 1e7F;
+// Beyond what bodies have, but where rounding alone makes them: extents from a sample to the body, w squared
+// (kMaxReach), and gradients. Form and sides then stay below 1e38: (kSteepest kFarSample)^2 kMostSquare 16.
+constexpr double kFarSample = 16.0;
+constexpr float kMostSquare = 1e9F, kSteepest = 1e12F;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -159,8 +163,8 @@ GNOMON_WIDE void RowSearch::find_samples(const PixelLanes& samples) noexcept {
   constexpr double kLeast = 1e-280;
   const double scale = most > kLeast ? 1.0 / most : 0.0, area_scale = area * scale;
   for (std::size_t i = 0; i < n; ++i) {
-    form_.x[i] = static_cast<float>((samples.x[i] - origin_x) * scale_x);
-    form_.y[i] = static_cast<float>((samples.y[i] - origin_y) * scale_y);
+    form_.x[i] = static_cast<float>(clamp_to((samples.x[i] - origin_x) * scale_x, -kFarSample, kFarSample));
+    form_.y[i] = static_cast<float>(clamp_to((samples.y[i] - origin_y) * scale_y, -kFarSample, kFarSample));
     form_.xx[i] = static_cast<float>(xx[i] * scale);
     form_.xy[i] = static_cast<float>(xy[i] * scale);
     form_.yy[i] = static_cast<float>(yy[i] * scale);
@@ -269,12 +273,12 @@ GNOMON_WIDE void RowSearch::find_directions(const RowLanes& candidates, float st
     const float area = std::abs(m.first_x[l] * m.second_y[l] - m.second_x[l] * m.first_y[l]) / m.w_1[l];
     const float per_area = 1.0F / divisor(area, kNothing);
     const float per_x = min_of(height * per_area, kWidest), per_y = min_of(width * per_area, kWidest);
-    m.turn_x[l] *= per_x;
-    m.first_x[l] *= per_x;
-    m.second_x[l] *= per_x;
-    m.turn_y[l] *= per_y;
-    m.first_y[l] *= per_y;
-    m.second_y[l] *= per_y;
+    m.turn_x[l] = max_of(min_of(m.turn_x[l] * per_x, kSteepest), -kSteepest);
+    m.first_x[l] = max_of(min_of(m.first_x[l] * per_x, kSteepest), -kSteepest);
+    m.second_x[l] = max_of(min_of(m.second_x[l] * per_x, kSteepest), -kSteepest);
+    m.turn_y[l] = max_of(min_of(m.turn_y[l] * per_y, kSteepest), -kSteepest);
+    m.first_y[l] = max_of(min_of(m.first_y[l] * per_y, kSteepest), -kSteepest);
+    m.second_y[l] = max_of(min_of(m.second_y[l] * per_y, kSteepest), -kSteepest);
     m.area[l] = per_x * width;
     for (std::size_t d = 0; d < kBoth; ++d) {
       m.x[d][l] = m.unit_x[d][l] * scale_x;
@@ -331,7 +335,8 @@ GNOMON_WIDE void RowSearch::find_sides(Maps& maps) const noexcept {
 // For one sample and candidate: the form of a row's squared extent, of which the side across and the area are
 // left out.
 #define GNOMON_FORM(at, k)                                                                           \
-  const float w##k = m.w_x[l] * at.x + m.w_y[l] * at.y + m.w_1[l], square##k = w##k * w##k;          \
+  const float w##k = m.w_x[l] * at.x + m.w_y[l] * at.y + m.w_1[l];                                   \
+  const float square##k = min_of(w##k * w##k, kMostSquare);                                          \
   const float ax##k = m.turn_x[l] * at.y + m.first_x[l], ay##k = m.second_x[l] - m.turn_x[l] * at.x; \
   const float bx##k = m.turn_y[l] * at.y + m.first_y[l], by##k = m.second_y[l] - m.turn_y[l] * at.x; \
   const float jx##k = ax##k * at.xx + ay##k * at.xy, jy##k = ax##k * at.xy + ay##k * at.yy;          \
