@@ -76,6 +76,7 @@ void Counts::add(const Counts& other) {
   casters += other.casters;
   unmapped += other.unmapped;
   measured += other.measured;
+  texels += other.texels;
   warps += other.warps;
   view_plans += other.view_plans;
   page_points += other.page_points;

@@ -31,7 +31,7 @@ struct Kind {
 /// What was looked at, so that nothing passes for lack of checks.
 struct Counts {
   long long plans = 0, seen_plans = 0, pages = 0, lights = 0, light_maps = 0, maps = 0, receivers = 0,
-            casters = 0, unmapped = 0, measured = 0, warps = 0, view_plans = 0, page_points = 0;
+            casters = 0, unmapped = 0, measured = 0, texels = 0, warps = 0, view_plans = 0, page_points = 0;
   void add(const Counts& other);
 };
 

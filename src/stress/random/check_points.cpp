@@ -232,22 +232,25 @@ void check_texel(const Scene& s, int index, const Real3& p, Report& report) {
   const ShadowMap& map = s.plan.map[k];
   const Shown shown = s.maps[k].show(p);
   // Only where positions are far finer than texels.
-  constexpr Real kFine = 1e-4L, kLoose = 1e-3L;
+  constexpr Real kFine = 1e-4L, kLoose = 5e-4L;
   const Real side = std::max(map.width, map.height);
   if (!(std::max(shown.ndc_error(0), shown.ndc_error(1)) * side < kFine)) return;
-  // Each matrix has the rounding of its own numbers: both have to say so.
-  const glm::dvec3 ray(s.light.travel(p));
-  const glm::dvec2 by_world =
-      texel_extent_world(map.clip_from_world, map.texels(), ray, glm::dvec3(p + s.view.eye));
-  const glm::dvec2 by_relative =
-      texel_extent_world(glm::dmat4(map.clip_from_camera_relative), map.texels(), ray, glm::dvec3(p));
-  const glm::dvec2 texel = glm::min(by_world, by_relative);
-  for (int axis = 0; axis < 2; ++axis) {
-    const Real ratio = Real(texel[axis]) / map.texel_world_max[axis];
-    if (!(ratio <= 1.0L + kLoose))
-      report.add("texel_larger_than_largest", static_cast<double>(ratio),
-                 name(map) + ": a texel is " + number(texel[axis]) + ", texel_world_max " +
-                     number(map.texel_world_max[axis]) + at(s, p));
+  // Each matrix has the rounding of its own numbers.
+  const Real3 travel = s.light.travel(p);
+  for (const bool by_world : {true, false}) {
+    const glm::dmat4 matrix = by_world ? map.clip_from_world : glm::dmat4(map.clip_from_camera_relative);
+    const Real3 point = by_world ? p + s.view.eye : p;
+    if (!(texel_rounding(matrix, by_world ? kWorldRounding : kFloatRounding, point, travel) < kLoose))
+      continue;
+    ++report.counts().texels;
+    const glm::dvec2 texel = texel_extent_world(matrix, map.texels(), glm::dvec3(travel), glm::dvec3(point));
+    for (int axis = 0; axis < 2; ++axis) {
+      const Real ratio = Real(texel[axis]) / map.texel_world_max[axis];
+      if (!(ratio <= 1.0L + 2.0L * kLoose))
+        report.add("texel_larger_than_largest", static_cast<double>(ratio),
+                   name(map) + ": a texel is " + number(texel[axis]) + ", texel_world_max " +
+                       number(map.texel_world_max[axis]) + at(s, p));
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 #include "exact_map.hpp"
 
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
 
 namespace gnomon::stress {
 namespace {
@@ -9,9 +11,6 @@ namespace {
 // Of a position relative to the camera or to a local light: about 4000 roundings of a double. The core clips
 // its bodies with 1e-13 of the largest distance at hand, face after face.
 constexpr Real kPosition = 1e-12L;
-// Of a row times a world position: the column that moves it is a sum of eight roundings, of numbers that are
-// sums themselves.
-constexpr Real kWorld = 64.0L * 0x1p-53L;
 
 }  // namespace
 
@@ -31,7 +30,7 @@ Real4 RelativeMap::world_error(const Real3& p) const {
     for (int c = 0; c < 3; ++c)
       sum += std::abs(Real(world_[c][row])) *
              (std::abs(p[c] + eye_[c]) + std::abs(eye_[c]) + std::abs(apex_[c] + eye_[c]));
-    error[row] = kWorld * sum;
+    error[row] = kWorldRounding * sum;
   }
   return error;
 }
@@ -48,6 +47,36 @@ Shown RelativeMap::show(const Real3& p) const {
   }
   if (space_.reversed_z) z = -z;
   return shown;
+}
+
+Real texel_rounding(const glm::dmat4& clip_from_point, Real step, const Real3& point, const Real3& travel) {
+  const auto row = [&](int i) {
+    return Real3(clip_from_point[0][i], clip_from_point[1][i], clip_from_point[2][i]);
+  };
+  const auto value = [&](int i) { return glm::dot(row(i), point) + Real(clip_from_point[3][i]); };
+  const auto rounding = [&](int i) {
+    return step * (glm::dot(glm::abs(row(i)), glm::abs(point)) + std::abs(Real(clip_from_point[3][i])));
+  };
+  constexpr int kW = 3;
+  const Real w = value(kW), relative_w = rounding(kW) / w;
+  if (!(w > rounding(kW))) return std::numeric_limits<Real>::infinity();
+  // How ndc changes over the world, and what that may be off by.
+  Real3 slope[2];
+  Real off[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    const Real ndc = value(axis) / w, ndc_off = rounding(axis) / w + std::abs(ndc) * relative_w;
+    slope[axis] = (row(axis) - ndc * row(kW)) / w;
+    off[axis] =
+        (step * (length(row(axis)) + std::abs(ndc) * length(row(kW))) + ndc_off * length(row(kW))) / w +
+        length(slope[axis]) * relative_w;
+  }
+  // A side is the other axis' slope, turned across the light, over the area of both.
+  const Real area = std::abs(glm::dot(glm::cross(slope[0], slope[1]), travel));
+  const Real of_area = off[0] * length(slope[1]) + off[1] * length(slope[0]);
+  Real of_side = 0.0L;
+  for (int axis = 0; axis < 2; ++axis)
+    of_side = std::max(of_side, off[axis] / length(glm::cross(slope[axis], travel)));
+  return of_area / area + of_side;
 }
 
 }  // namespace gnomon::stress

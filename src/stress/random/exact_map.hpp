@@ -16,6 +16,12 @@ struct Shown {
   }
 };
 
+/// Of a row times a world position: the column that moves it is a sum of eight roundings, of numbers that are
+/// sums themselves.
+inline constexpr Real kWorldRounding = 64.0L * 0x1p-53L;
+/// Of a number that is rounded to float.
+inline constexpr Real kFloatRounding = 0x1p-24L;
+
 class RelativeMap {
  public:
   RelativeMap(const ShadowPlan& plan, const ShadowMap& map, const View& view);
@@ -32,5 +38,11 @@ class RelativeMap {
   Real3 eye_, apex_;
   ClipSpace space_;
 };
+
+/// What texel_extent_world() at a point may be off by, of itself, where each number of the matrix is off by
+/// `step` of itself. The sides of a texel follow from differences of numbers that may nearly cancel: a warp
+/// from w = 1 to 1e8 loses more of them than of the places that it shows. `travel`: unit, of the light.
+[[nodiscard]] Real texel_rounding(const glm::dmat4& clip_from_point, Real step, const Real3& point,
+                                  const Real3& travel);
 
 }  // namespace gnomon::stress

@@ -66,7 +66,8 @@ std::string summary(const RandomOptions& options, const RandomResult& result) {
        << " pages, " << c.page_points << " points of pages, " << c.lights << " of many lights, "
        << c.light_maps << " maps of them, " << c.maps << " maps, " << c.receivers << " receiver points, "
        << c.casters << " shadow rays, " << c.unmapped << " points without a map, " << c.measured
-       << " metric points, " << c.warps << " warps against none\n";
+       << " metric points, " << c.texels << " texels against the largest, " << c.warps
+       << " warps against none\n";
   for (const PlanTimes& t : result.times) {
     text << "make_plan, " << t.sort << ": " << t.cases << " cases, median " << t.median_ms
          << " ms, 99th percentile " << t.p99_ms << " ms, worst " << t.worst_ms << " ms (case " << t.worst_case
