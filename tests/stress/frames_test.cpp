@@ -96,6 +96,23 @@ TEST_F(FramesNet, exact_shadows_are_decided_but_for_edges) {
   EXPECT_GT(verdict.counts.exact, verdict.counts.pixels * 99 / 100);
 }
 
+TEST_F(FramesNet, what_casts_or_receives_no_shadow_is_lit_from_every_source) {
+  for (const char* source : {"maps", "pages", "lights", "irregular", "identifiers"}) {
+    for (const auto& [object, key] : {std::pair(1, "casts"), std::pair(0, "receives")}) {
+      Json frame = plate_over_ground();
+      frame["frame"]["source"] = source;
+      const long long shadow = check_frame(frame).counts.dark;
+      frame["objects"][static_cast<std::size_t>(object)][key] = false;
+      const FrameVerdict verdict = check_frame(frame);
+      for (const Finding& f : verdict.findings) ADD_FAILURE() << source << ": " << f.kind << ": " << f.text;
+      const FrameCounts& c = verdict.counts;
+      EXPECT_EQ(c.dark, 0) << source << " " << key;
+      EXPECT_TRUE(shadow > 0 || source == std::string("irregular")) << source;
+      EXPECT_GT(c.lit + c.exact + c.unserved, c.pixels / 2) << source << " " << key;
+    }
+  }
+}
+
 /// The space of one map of that scene, whose triangles are changed by `harm` behind the renderer's back.
 struct Space {
   explicit Space(const Json& frame) : setting(read_frame(frame)), scene(scene_of_frame(frame)) {

@@ -76,8 +76,9 @@ class Spaces {
   [[nodiscard]] Must decide(int index, const Receiver3& receiver) {
     const Entry& entry = at(index);
     const FrameSetting& setting = stage_.setting();
-    const bool by_identifiers =
-        setting.source.kind == render::SourceKind::identifiers && !bends_lines(stage_);
+    // Surfaces that cast no shadow are in no map, and are compared by depth.
+    const bool by_identifiers = setting.source.kind == render::SourceKind::identifiers &&
+                                !bends_lines(stage_) && truth_.triangles[receiver.triangle].casts;
     const Comparing comparing{reach_of(setting, entry.map, by_identifiers), setting.options.linear_depth,
                               bias()};
     if (by_identifiers)
@@ -148,7 +149,7 @@ struct Promises {
   bool lit = false, dark = false;
   float tolerance = kWeights;
 };
-Promises promises_of(const FrameSetting& setting, bool bent) {
+Promises promises_of(const FrameSetting& setting, bool by_depth) {
   // Every layer stores the first surface or one behind it; rules that are bounded may omit casters.
   const bool front = setting.options.depth_layer == render::DepthLayer::front;
   const bool all_drawn = !setting.options.prune.has(PruneRule::small_casters);
@@ -156,7 +157,7 @@ Promises promises_of(const FrameSetting& setting, bool bent) {
     case render::SourceKind::irregular:
       return {};
     case render::SourceKind::identifiers:
-      if (!bent) return {true, all_drawn};
+      if (!by_depth) return {true, all_drawn};
       break;
     default:
       break;
@@ -193,7 +194,17 @@ void check_pixel(FrameStage& stage, const Truth& truth, Spaces& spaces, const Fl
           "no map serves the surface; the mask is " + std::to_string(visibility) + at(stage, truth, pixel));
     return;
   }
-  const Promises promised = promises_of(stage.setting(), bends_lines(stage));
+  if (!truth.points.pixels[pixel].receives) {
+    ++report.counts().lit;
+    if (!(visibility >= 1.0f - kWeights))
+      report.add("mask_dark", 1.0 - static_cast<double>(visibility),
+                 "the surface receives no shadow; the mask is " + std::to_string(visibility) +
+                     at(stage, truth, pixel));
+    return;
+  }
+  const trace::SurfacePoint& point = truth.points.pixels[pixel];
+  const Promises promised =
+      promises_of(stage.setting(), bends_lines(stage) || !truth.triangles[point.triangle].casts);
   if (!promised.lit && !promised.dark) return;
   const Must must = must_be(stage, spaces, map, receiver_of(stage, truth, normals, pixel));
   if (must == Must::lit && promised.lit) {

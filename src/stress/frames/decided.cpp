@@ -47,6 +47,7 @@ std::vector<WorldTriangle> world_triangles(const Scene& scene, const glm::dvec3&
         }
         t.instance = i;
         t.masked = masked;
+        t.casts = instance.casts;
         const glm::dvec3 u = t.corner[1] - t.corner[0], v = t.corner[2] - t.corner[0];
         t.flat = !(glm::length(glm::cross(u, v)) > 1e-12 * glm::length(u) * glm::length(v));
       }
@@ -138,6 +139,7 @@ std::vector<std::uint32_t> MapSpace::near(const Rectangle& ndc) const {
   std::vector<std::uint32_t> found;
   for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
     const Shape3& s = shapes_[i];
+    if (!triangles_[i].casts) continue;
     if (s.low.x <= ndc.high.x && s.high.x >= ndc.low.x && s.low.y <= ndc.high.y && s.high.y >= ndc.low.y)
       found.push_back(i);
   }
@@ -294,7 +296,8 @@ Must MapSpace::decide_even(const Receiver3& r, const Comparing& comparing, doubl
     if (whole && high > nearest - even) nearest = std::max(nearest, high);
     if (!whole) highest = std::max(highest, high);
   }
-  const bool own = covers(r.triangle, r, look.ndc, -kInfinite) && !triangles_[r.triangle].masked;
+  const WorldTriangle& seen = triangles_[r.triangle];
+  const bool own = covers(r.triangle, r, look.ndc, -kInfinite) && !seen.masked && seen.casts;
   if (highest > nearest + even) return Must::undecided;
   if (nearest <= even) return own ? Must::lit : Must::undecided;
   constexpr double kRoom = 1.05;

@@ -30,6 +30,7 @@ struct WorldTriangle {
   std::uint32_t instance = 0;
   bool masked = false;  ///< has holes, or may have
   bool flat = false;    ///< without area
+  bool casts = true;    ///< false: it is in no map
 };
 [[nodiscard]] std::vector<WorldTriangle> world_triangles(const Scene& scene, const glm::dvec3& eye);
 

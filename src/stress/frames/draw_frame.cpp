@@ -54,6 +54,8 @@ Json draw_object(Dice& dice, bool flat) {
     object["color"] = Json::array({dice.unit(), dice.unit(), dice.unit(), dice.between(0.1, 0.95)});
   if (kind == ObjectKind::soup || kind == ObjectKind::sliver) object["count"] = 1 + dice.pick(24);
   object["seed"] = dice.pick(1 << 20);
+  if (dice.chance(0.1)) object["casts"] = false;
+  if (dice.chance(0.1)) object["receives"] = false;
   return object;
 }
 
@@ -71,10 +73,10 @@ Json draw_view(Dice& dice, const World& world, Stage& s) {
   const glm::dvec3 target{dice.between(-3.0, 3.0), dice.between(0.0, 2.0), dice.between(-3.0, 3.0)};
   glm::dvec3 away = dice.direction();
   away.y = std::abs(away.y) + (dice.chance(0.2) ? 0.0 : 0.25);
-  const glm::dvec3 eye = target + away * dice.power(1.0, 3.7);
-  const double far_depth = dice.power(4.5, 6.5);
-  s.near_depth = world.scale * dice.power(-5.0, -0.5);
-  s.far_depth = world.scale * far_depth;
+  const double far_off = dice.chance(0.08) ? dice.power(3.0, 9.0) : 1.0;  // through a telescope
+  const glm::dvec3 eye = target + away * (far_off * dice.power(1.0, 3.7));
+  s.near_depth = world.scale * dice.power(-5.0, -0.5) * far_off;
+  s.far_depth = world.scale * dice.power(4.5, 6.5) * far_off;
   s.eye = world.place(eye);
   s.forward = glm::normalize(target - eye);
   s.right = glm::normalize(glm::cross(s.forward, glm::dvec3(0.1, 1.0, 0.05)));
@@ -88,7 +90,7 @@ Json draw_view(Dice& dice, const World& world, Stage& s) {
     camera["height_world"] = tall;
     s.top = 0.5 * tall;
   } else {
-    const double degrees = dice.between(20.0, 100.0);
+    const double degrees = dice.between(20.0, 100.0) / far_off;
     camera["fov_y_deg"] = degrees;
     s.top = std::tan(degrees * 0.008726646259971648);
   }

@@ -189,6 +189,14 @@ Json placed(const Json& object) {
           {"scale", numbers(object, "size", {1, 1, 1})}};
 }
 
+/// A mesh of one primitive, which casts and receives as the object says.
+int mesh_of(GlbText& glb, const Json& object, const Json& primitive) {
+  Json mesh{{"primitives", Json::array({primitive})}};
+  if (!object.value("casts", true)) mesh["extras"]["castShadow"] = false;
+  if (!object.value("receives", true)) mesh["extras"]["receiveShadow"] = false;
+  return glb.add("meshes", mesh);
+}
+
 /// Bends about its foot and its middle.
 void add_tower(GlbText& glb, const Json& object, int root, int material) {
   const Corners corners = box_corners(4);
@@ -205,8 +213,7 @@ void add_tower(GlbText& glb, const Json& object, int root, int material) {
   const int foot = glb.node(placed(object), root);
   const int top = glb.node(Json::object(), foot);
   const int skin = glb.add("skins", {{"joints", {foot, top}}});
-  const int mesh = glb.add("meshes", {{"primitives", Json::array({primitive})}});
-  glb.node({{"mesh", mesh}, {"skin", skin}});
+  glb.node({{"mesh", mesh_of(glb, object, primitive)}, {"skin", skin}});
   constexpr float kTilt = 0.28f, kUp = 0.96f;
   glb.animate(top, "rotation", {0, 1, 2, 3}, {0, 0, 0, 1, 0, 0, kTilt, kUp, kTilt, 0, 0, kUp, 0, 0, 0, 1});
 }
@@ -218,13 +225,13 @@ void add_grower(GlbText& glb, const Json& object, int root, int material) {
   for (std::size_t i = 0; i < offsets.size(); ++i) offsets[i] *= i % 3 == 1 ? 1.0f : -0.5f;
   primitive["targets"] = Json::array({{{"POSITION", glb.floats(offsets, "VEC3")}}});
   Json node = placed(object);
-  node["mesh"] = glb.add("meshes", {{"primitives", Json::array({primitive})}});
+  node["mesh"] = mesh_of(glb, object, primitive);
   glb.animate(glb.node(node, root), "weights", {0, 1.5f, 3}, {0, 1, 0});
 }
 
 void add_walker(GlbText& glb, const Json& object, int root, int material) {
   Json node = placed(object);
-  node["mesh"] = glb.add("meshes", {{"primitives", Json::array({glb.primitive(box_corners(), material)})}});
+  node["mesh"] = mesh_of(glb, object, glb.primitive(box_corners(), material));
   const int walker = glb.node(node, root);
   const std::vector<float> at = numbers(object, "at", {0, 0, 0});
   std::vector<float> way;
@@ -235,7 +242,7 @@ void add_walker(GlbText& glb, const Json& object, int root, int material) {
 
 /// One mesh in five places, two of them mirror images.
 void add_twins(GlbText& glb, const Json& object, int root, int material) {
-  const int mesh = glb.add("meshes", {{"primitives", Json::array({glb.primitive(box_corners(), material)})}});
+  const int mesh = mesh_of(glb, object, glb.primitive(box_corners(), material));
   const int group = glb.node(placed(object), root);
   for (int i = 0; i < 5; ++i) {
     const double side = i % 2 == 1 ? -0.35 : 0.35;
@@ -295,7 +302,7 @@ void add_object(GlbText& glb, const Json& object, int root, const Materials& mat
       break;
   }
   Json node = placed(object);
-  node["mesh"] = glb.add("meshes", {{"primitives", Json::array({glb.primitive(corners, material)})}});
+  node["mesh"] = mesh_of(glb, object, glb.primitive(corners, material));
   glb.node(node, root);
 }
 

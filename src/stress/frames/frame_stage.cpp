@@ -67,10 +67,8 @@ void FrameStage::advance() {
     pose_all();
     move_instances();
   }
-  boxes_.clear();
-  for (const Scene* part : {&parts_.opaque, &parts_.panes}) {
-    for (const Instance& instance : part->instances) boxes_.push_back(instance.bounds_world);
-  }
+  boxes_ = ShadowBoxes(parts_.opaque);
+  for (const Instance& pane : parts_.panes.instances) boxes_.add(pane);
 }
 
 void FrameStage::pose_all() {
@@ -147,7 +145,7 @@ bool FrameStage::plan() {
       by_pages() || setting_.visible_points ? seen_points() : std::vector<glm::dvec3>{};
   View view{.camera = camera_};
   view.points_world = points;
-  const SceneBounds bounds{boxes_, boxes_};
+  const SceneBounds bounds = boxes_.bounds();
   if (by_pages()) return plan_by_pages(view, bounds);
   if (setting_.source.kind == render::SourceKind::lights) return plan_one_light(view, bounds);
   maps_ = make_plan(view, setting_.input.light, bounds, setting_.input.options);

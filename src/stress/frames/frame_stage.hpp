@@ -10,6 +10,7 @@
 #include "frame_setting.hpp"
 #include "gnomon/lights.hpp"
 #include "gnomon/scene/pose.hpp"
+#include "gnomon/scene/shadow_boxes.hpp"
 #include "gnomon/scene/translucent.hpp"
 
 namespace gnomon::stress {
@@ -59,7 +60,7 @@ class FrameStage {
   std::vector<char> moves_by_itself_;  ///< by instance of the opaque part
   std::unique_ptr<render::Renderer> keeping_, redrawing_;
   Camera camera_;
-  std::vector<Box> boxes_;
+  ShadowBoxes boxes_;
   ShadowPlan maps_;
   PagePlan pages_;
   LightPlan lights_;
