@@ -12,6 +12,7 @@
 #include "geometry/box_walk.hpp"
 #include "geometry/even_points.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/wide.hpp"
 
 namespace gnomon {
 namespace {
@@ -48,6 +49,74 @@ struct Through {
   double begin, end;
 };
 
+/// The fan's rays through a camera's image: from the eye, or side by side.
+struct Rays {
+  using Numbers = std::array<double, kRays>;
+  alignas(64) Numbers y;  // in the image, 0 to 1
+  alignas(64) std::array<Numbers, 3> direction, origin;
+  alignas(64) std::array<Numbers, 3> inverse;  // of the direction; 0: across the axis
+  [[nodiscard]] glm::dvec3 at(std::size_t ray, double depth) const noexcept {
+    return {origin[0][ray] + direction[0][ray] * depth, origin[1][ray] + direction[1][ray] * depth,
+            origin[2][ray] + direction[2][ray] * depth};
+  }
+};
+
+GNOMON_WIDE void find_rays(const Camera& camera, const CameraAxes& axes, Rays& rays) noexcept {
+  Rays& __restrict r = rays;
+  const double left = camera.left, width = camera.right - left;
+  const double bottom = camera.bottom, height = camera.top - bottom;
+  const bool parallel = camera.orthographic;
+  Rays::Numbers x;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    x[i] = left + width * even_x(kFan.number[i]);
+    r.y[i] = even_y(kFan.number[i]);
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    const double right = axes.right[axis], up = axes.up[axis], forward = axes.forward[axis];
+    const auto k = static_cast<std::size_t>(axis);
+    for (std::size_t i = 0; i < kRays; ++i) {
+      const double aside = right * x[i] + up * (bottom + height * r.y[i]);
+      const double fanned = forward + aside, direction = parallel ? forward : fanned;
+      r.direction[k][i] = direction;
+      r.origin[k][i] = parallel ? aside : 0.0;
+      r.inverse[k][i] = inverse_or_0(direction);
+    }
+  }
+}
+
+/// Where the ray is between the box's sides; end < begin: nowhere.
+[[gnu::always_inline]] inline Through passed(const Box& box, const Rays& rays, std::size_t ray) noexcept {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const auto between = [&](double low, double high, double inverse) {
+    const double a = low * inverse, b = high * inverse;
+    // Across the axis: between both sides all the way, or never.
+    const double never = low > 0.0 ? kInfinity : high < 0.0 ? kInfinity : -kInfinity;
+    return inverse == 0.0 ? Through{never, -never} : Through{min_of(a, b), max_of(a, b)};
+  };
+  const auto along = [&](int axis) {
+    const auto k = static_cast<std::size_t>(axis);
+    const double origin = rays.origin[k][ray];
+    return between(box.min[axis] - origin, box.max[axis] - origin, rays.inverse[k][ray]);
+  };
+  const Through x = along(0), y = along(1), z = along(2);
+  return {max_of(max_of(x.begin, y.begin), z.begin), min_of(min_of(x.end, y.end), z.end)};
+}
+
+/// The same of many rays.
+struct Passed {
+  alignas(64) Rays::Numbers begin, end;
+};
+GNOMON_WIDE void find_passed(const Box& box, const Rays& rays, std::size_t first, std::size_t beyond,
+                             Passed& result) noexcept {
+  Passed& __restrict p = result;
+  const Box copy = box;
+  for (std::size_t ray = first; ray < beyond; ++ray) {
+    const Through through = passed(copy, rays, ray);
+    p.begin[ray] = through.begin;
+    p.end[ray] = through.end;
+  }
+}
+
 /// The nearest boxes on every ray of the fan.
 class NearestBoxes {
  public:
@@ -57,16 +126,7 @@ class NearestBoxes {
   /// `list`: the boxes are asked one by one anyway, after planes; a tree asks first where not to look.
   NearestBoxes(const Camera& camera, const CameraAxes& axes, bool list) noexcept
       : camera_(camera), axes_(axes), list_(list) {
-    for (std::size_t i = 0; i < kRays; ++i) {
-      y_[i] = even_y(kFan.number[i]);
-      const glm::dvec3 aside =
-          axes.right * (camera.left + (camera.right - camera.left) * even_x(kFan.number[i])) +
-          axes.up * (camera.bottom + (camera.top - camera.bottom) * y_[i]);
-      direction_[i] = camera.orthographic ? axes.forward : axes.forward + aside;
-      origin_[i] = camera.orthographic ? aside : glm::dvec3(0.0);
-      const glm::dvec3& d = direction_[i];
-      inverse_[i] = {inverse_or_0(d.x), inverse_or_0(d.y), inverse_or_0(d.z)};
-    }
+    find_rays(camera, axes, rays_);
   }
 
   [[nodiscard]] std::uint32_t wanted(const CasterBlock& block) const noexcept {
@@ -111,7 +171,7 @@ class NearestBoxes {
       // A surface lies somewhere inside of its box: points on the boxes' sides were as often worse as better.
       const double depth =
           box.begin + spread(0.3819660112501051, static_cast<double>(number)) * (box.end - box.begin);
-      seen.point[seen.count++] = origin_[ray] + direction_[ray] * depth;
+      seen.point[seen.count++] = rays_.at(ray, depth);
     }
   }
 
@@ -143,24 +203,6 @@ class NearestBoxes {
     return part.left < 1.0 && part.right > 0.0 && part.bottom < 1.0 && part.top > 0.0;
   }
 
-  /// Where the ray is between the box's sides; end < begin: nowhere.
-  [[nodiscard]] Through passed(const Box& box, std::size_t ray) const noexcept {
-    Through through{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
-    for (int axis = 0; axis < 3; ++axis) {
-      const double low = box.min[axis] - origin_[ray][axis], high = box.max[axis] - origin_[ray][axis];
-      const double inverse = inverse_[ray][axis];
-      // Across the axis: between both sides all the way, or never.
-      if (inverse == 0.0) {
-        if (low > 0.0 || high < 0.0) return {1.0, 0.0};
-        continue;
-      }
-      const double a = low * inverse, b = high * inverse;
-      through.begin = max_of(through.begin, min_of(a, b));
-      through.end = min_of(through.end, max_of(a, b));
-    }
-    return through;
-  }
-
   struct RayRange {
     std::size_t first, beyond;
   };
@@ -172,15 +214,19 @@ class NearestBoxes {
   }
   /// Whether the ray may meet a box that is shown there before those that it has.
   [[nodiscard]] bool may_keep(std::size_t ray, const Shown& part) const noexcept {
-    return y_[ray] >= part.bottom && y_[ray] <= part.top &&
+    return rays_.y[ray] >= part.bottom && rays_.y[ray] <= part.top &&
            (count_[ray] < kMost || part.nearest <= box_[ray][kMost - 1].begin);
   }
 
   void add(const Box& box, const Shown& part) noexcept {
     const RayRange rays = rays_in(part);
+    // Of small boxes few rays are worked out at all.
+    constexpr std::size_t kMany = 24;
+    const bool many = rays.first + kMany < rays.beyond;
+    if (many) find_passed(box, rays_, rays.first, rays.beyond, passed_);
     for (std::size_t ray = rays.first; ray < rays.beyond; ++ray) {
       if (!may_keep(ray, part)) continue;
-      const Through through = passed(box, ray);
+      const Through through = many ? Through{passed_.begin[ray], passed_.end[ray]} : passed(box, rays_, ray);
       if (!(through.begin <= through.end && through.end > camera_.near_depth &&
             through.begin < camera_.far_depth))
         continue;
@@ -209,14 +255,45 @@ class NearestBoxes {
   const CameraAxes& axes_;
   bool list_;
   double from_ = -std::numeric_limits<double>::infinity(), to_ = std::numeric_limits<double>::infinity();
-  std::array<double, kRays> y_;  // in the image, 0 to 1
-  std::array<glm::dvec3, kRays> direction_, origin_;
-  std::array<glm::dvec3, kRays> inverse_;  // of the direction, component by component; 0: across the axis
+  Rays rays_;
+  Passed passed_;  // by the last large box
   std::array<std::size_t, kRays> count_{};
   std::array<std::array<Through, kMost>, kRays> box_;
 };
 
+/// Points side by side, and the least distance of each from the inside of a body's faces.
+struct PointLanes {
+  alignas(64) std::array<double, SeenPoints::kMost> x, y, z, inside;
+};
+GNOMON_WIDE void find_inside(const Polytope& body, std::size_t count, PointLanes& points) noexcept {
+  PointLanes& __restrict p = points;
+  for (std::size_t i = 0; i < count; ++i) p.inside[i] = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < body.face_count; ++f) {
+    const Plane plane = body.plane[static_cast<std::size_t>(f)];
+    const double x = plane.normal.x, y = plane.normal.y, z = plane.normal.z, offset = plane.offset;
+    for (std::size_t i = 0; i < count; ++i)
+      p.inside[i] = min_of(p.inside[i], x * p.x[i] + y * p.y[i] + z * p.z[i] + offset);
+  }
+}
+
 }  // namespace
+
+std::size_t points_inside(const Polytope& body, std::span<const glm::dvec3> points, double touching,
+                          std::array<glm::dvec3, SeenPoints::kMost>& inside) noexcept {
+  PointLanes lanes;
+  points = points.first(std::min(points.size(), inside.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    lanes.x[i] = points[i].x;
+    lanes.y[i] = points[i].y;
+    lanes.z[i] = points[i].z;
+  }
+  find_inside(body, points.size(), lanes);
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (lanes.inside[i] >= -touching * largest_component(points[i])) inside[count++] = points[i];
+  }
+  return count;
+}
 
 SeenPoints first_hits(const Camera& camera, const CameraAxes& axes, const Boxes& boxes) noexcept {
   NearestBoxes nearest(camera, axes, boxes.set() == nullptr);

@@ -8,6 +8,7 @@
 
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
+#include "gnomon/extend/body.hpp"
 
 namespace gnomon {
 
@@ -24,6 +25,11 @@ struct SeenPoints {
 /// both sides of one of the first six boxes. The same ones in any order of the boxes.
 [[nodiscard]] SeenPoints first_hits(const Camera& camera, const CameraAxes& axes,
                                     const Boxes& boxes) noexcept;
+
+/// Copies those of `points`, no more than fit, which are inside `body` or off it by no more than this share
+/// of their coordinates. Returns how many.
+std::size_t points_inside(const Polytope& body, std::span<const glm::dvec3> points, double touching,
+                          std::array<glm::dvec3, SeenPoints::kMost>& inside) noexcept;
 
 /// Evenly chosen ones of `points_world` that are in view.
 [[nodiscard]] SeenPoints some_of(const Camera& camera, const CameraAxes& axes,

@@ -192,16 +192,12 @@ std::span<const glm::dvec3> seen_inside(const PlanContext& c, const MapRequest& 
                                         std::array<glm::dvec3, SeenPoints::kMost>& seen) noexcept {
   // Boxes' sides are where bodies end.
   constexpr double kTouching = 1e-6;
+  const std::size_t inside = points_inside(request.body, c.seen, kTouching, seen);
+  const double least = begin * (1.0 - kTouching);
   std::size_t count = 0;
-  for (const glm::dvec3& p : c.seen) {
-    if (!c.camera.orthographic && glm::dot(c.axes.forward, p) < begin * (1.0 - kTouching)) continue;
-    const double touching = kTouching * largest_component(p);
-    bool inside = true;
-    for (int f = 0; inside && f < request.body.face_count; ++f) {
-      const Plane& plane = request.body.plane[static_cast<std::size_t>(f)];
-      inside = glm::dot(plane.normal, p) + plane.offset >= -touching;
-    }
-    if (inside) seen[count++] = request.space.frame.turned(p);
+  for (std::size_t i = 0; i < inside; ++i) {
+    if (!c.camera.orthographic && glm::dot(c.axes.forward, seen[i]) < least) continue;
+    seen[count++] = request.space.frame.turned(seen[i]);
   }
   return {seen.data(), count};
 }

@@ -443,7 +443,9 @@ GNOMON_WIDE void RowSearch::find_rows(double step, RowLanes& candidates) noexcep
 /// The best pair of each candidate.
 GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps& maps, RowLanes& candidates) const noexcept {
   const Maps& __restrict m = maps;
-  RowLanes& __restrict c = candidates;
+  const RowLanes& __restrict c = candidates;
+  // On this stack, where the compiler knows that what is written is none of what is read.
+  alignas(64) FloatLanes best_a_x, best_a_y, best_b_x, best_b_y, least;
   const std::size_t lanes = fall_offs_ & ~(kFloatLanes - 1);
   std::array<Turn, 2 * kFan - 1> turn;
   for (std::size_t k = 0; k < turn.size(); ++k)
@@ -494,12 +496,17 @@ GNOMON_WIDE void RowSearch::pick_rows(double step, const Maps& maps, RowLanes& c
     GNOMON_PAIR(3, 2, 2)
     GNOMON_PAIR(3, 3, 3)
 #undef GNOMON_PAIR
-    c.a_x[l] = a_x;
-    c.a_y[l] = a_y;
-    c.b_x[l] = b_x;
-    c.b_y[l] = b_y;
-    c.value[l] = best;
+    best_a_x[l] = a_x;
+    best_a_y[l] = a_y;
+    best_b_x[l] = b_x;
+    best_b_y[l] = b_y;
+    least[l] = best;
   }
+  candidates.a_x = best_a_x;
+  candidates.a_y = best_a_y;
+  candidates.b_x = best_b_x;
+  candidates.b_y = best_b_y;
+  candidates.value = least;
 }
 
 #undef GNOMON_FORM

@@ -147,7 +147,8 @@ GNOMON_WIDE void SideSearch::turn(const Sides& sides, SideLanes& candidates) con
 
 GNOMON_WIDE void SideSearch::fit(const SideLanes& candidates, Maps& maps) const noexcept {
   Maps& __restrict m = maps;
-  const SideLanes& __restrict c = candidates;
+  // Copies, which the compiler knows that nothing below writes to.
+  alignas(64) const std::array<FloatLanes, 4> n_x = candidates.x, n_y = candidates.y;
   const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = points_;
   alignas(64) FloatLanes least_0, least_1, least_2, least_3, low, high;
   for (std::size_t l = 0; l < lanes; ++l) {
@@ -160,7 +161,7 @@ GNOMON_WIDE void SideSearch::fit(const SideLanes& candidates, Maps& maps) const 
     for (std::size_t l = 0; l < lanes; ++l) {
 #define GNOMON_TOUCH(k) \
   least_##k[l] =        \
-      min_of(least_##k[l], min_of(c.x[k][l] * x + c.y[k][l] * y, c.x[k][l] * next_x + c.y[k][l] * next_y))
+      min_of(least_##k[l], min_of(n_x[k][l] * x + n_y[k][l] * y, n_x[k][l] * next_x + n_y[k][l] * next_y))
       GNOMON_TOUCH(0);
       GNOMON_TOUCH(1);
       GNOMON_TOUCH(2);
@@ -169,9 +170,9 @@ GNOMON_WIDE void SideSearch::fit(const SideLanes& candidates, Maps& maps) const 
     }
   }
   for (std::size_t l = 0; l < lanes; ++l) {
-    const float x0 = c.x[0][l], y0 = c.y[0][l], z0 = -least_0[l], x1 = c.x[1][l], y1 = c.y[1][l],
+    const float x0 = n_x[0][l], y0 = n_y[0][l], z0 = -least_0[l], x1 = n_x[1][l], y1 = n_y[1][l],
                 z1 = -least_1[l];
-    const float x2 = c.x[2][l], y2 = c.y[2][l], z2 = -least_2[l], x3 = c.x[3][l], y3 = c.y[3][l],
+    const float x2 = n_x[2][l], y2 = n_y[2][l], z2 = -least_2[l], x3 = n_x[3][l], y3 = n_y[3][l],
                 z3 = -least_3[l];
     // Where opposite sides meet.
     const float px = y0 * z1 - z0 * y1, py = z0 * x1 - x0 * z1, pz = x0 * y1 - y0 * x1;
