@@ -22,10 +22,10 @@ TEST(CommandLine, help_lists_the_subcommands) {
   const Finished finished = run_gnomon({"--help"});
   EXPECT_EQ(finished.exit_code, 0);
   for (const char* word : {"plan", "scenes", "compare", "merge", "report", "doctor", "filters", "calibrate",
-                           "stress", "--version"})
+                           "bench", "stress", "--version"})
     EXPECT_NE(finished.out.find(word), std::string::npos) << word;
-  for (const char* subcommand :
-       {"plan", "scenes", "compare", "merge", "report", "doctor", "filters", "calibrate", "stress"}) {
+  for (const char* subcommand : {"plan", "scenes", "compare", "merge", "report", "doctor", "filters",
+                                 "calibrate", "stress", "bench"}) {
     EXPECT_EQ(run_gnomon({subcommand, "--help"}).exit_code, 0);
     EXPECT_NE(run_gnomon({subcommand, "--help"}).out.find("--json"), std::string::npos);
     EXPECT_EQ(run_gnomon({subcommand, "--version"}).out, run_gnomon({"--version"}).out);

@@ -14,6 +14,7 @@ namespace gnomon::report {
 ///   summary.csv         a line per scene and technique,
 ///   frames.csv          a line per row,
 ///   views.csv           medians over views with their intervals, a line per technique,
+///   budgets.json        the technique of least error for each budget of time, with the machine,
 ///   fronts.md           what no other technique beats on each scene, as tables.
 /// Files that are there already are replaced, each as a whole. A folder with none of them is refused.
 /// Warnings as read_rows. Throws ReportError. Returns the path of the page.

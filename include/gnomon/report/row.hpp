@@ -30,9 +30,11 @@ struct Technique {
   double page_target_m = 0.0;  ///< error that pages are opened for; 0: the least that the pool holds
   /// Name of the render::DepthLayer that the maps store. Empty: front.
   std::string layer = {};
-  /// Name of an entry of others, whose maps or masks are measured. Warp, split and fit are empty then, and
-  /// cascades and map_size 0 for masks. Empty: gnomon's own plan.
+  /// Name of a technique of others. Where gnomon plans it, the rest says how. Where their maps or masks are
+  /// measured, warp, split and fit are empty, and cascades and map_size 0 for masks. Empty: gnomon's own.
   std::string entry = {};
+  /// Maps or masks that others made: gnomon has no plan of it.
+  [[nodiscard]] bool is_given() const noexcept { return !entry.empty() && warp.empty(); }
   /// "warp lispsm", "pages resolution" or "entry three": the charts' marks.
   [[nodiscard]] std::string kind() const;
   /// "none / auto / 4 x 1024 / pcf": unique within a sweep, for people.

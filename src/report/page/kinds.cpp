@@ -11,8 +11,6 @@
 namespace gnomon::report {
 namespace {
 
-constexpr std::string_view kErrors[] = {"wrong", "pixel_error", "twinkle"};
-
 std::string kind_of(const Row& row) {
   const std::size_t end = row.view.find(": ");
   return end == std::string::npos ? std::string() : row.view.substr(0, end);
@@ -26,22 +24,11 @@ struct Ranked {
 /// Techniques that have the error in all views that count, the least median first.
 std::vector<Ranked> ranked(const ViewTable& table, const Summary& summary, std::string_view key) {
   std::vector<Ranked> all;
-  const auto& values = table.values[static_cast<std::size_t>(
-      std::find(kOverViews.begin(), kOverViews.end(), key) - kOverViews.begin())];
-  for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
-    const bool everywhere =
-        !values[t].empty() &&
-        std::all_of(values[t].begin(), values[t].end(), [](double value) { return std::isfinite(value); });
-    if (everywhere) all.push_back({t, *table.over(key, t)});
-  }
+  for (std::size_t t = 0; t < summary.techniques.size(); ++t)
+    if (table.everywhere(key, t)) all.push_back({t, *table.over(key, t)});
   std::stable_sort(all.begin(), all.end(),
                    [](const Ranked& a, const Ranked& b) { return a.error.median < b.error.median; });
   return all;
-}
-
-std::string with_interval(const Measure& measure, const Estimate& e) {
-  return measure.text(e.median) + " (" + short_number(measure.shown(e.low)) + " to " +
-         short_number(measure.shown(e.high)) + ")";
 }
 
 }  // namespace
@@ -79,7 +66,6 @@ std::vector<KindBest> best_of_kinds(const std::vector<Row>& rows, const Summary&
 std::string kind_part(const std::vector<Row>& rows, const Summary& summary) {
   const std::vector<KindBest> best = best_of_kinds(rows, summary);
   if (best.empty()) return {};
-  constexpr double kSure = 0.05;
   std::string out =
       "<h3>By kind of scene</h3>\n<p class=\"note\">The least median of each error over the views of a kind, "
       "with its "

@@ -28,7 +28,7 @@ std::string head_of(const Measure& measure) {
   return latex_text(measure.column) + (measure.unit == "%" ? ", \\%" : "");
 }
 
-std::string median_table(const ViewTable& table, const Summary& summary) {
+std::string latex_medians(const ViewTable& table, const Summary& summary) {
   std::string out = "\\begin{tabular}{lrlrlrlrl}\n\\toprule\ntechnique";
   for (const std::string_view key : kColumns)
     out += " & \\multicolumn{2}{c}{" + head_of(measures()[measure_index(key)]) + "}";
@@ -101,7 +101,7 @@ std::string latex_tables(const std::vector<Row>& rows, const Summary& summary) {
   const ViewTable table = view_table(rows, summary);
   std::string out = "% Written by gnomon " + latex_text(rows.empty() ? "" : rows.front().machine.version) +
                     ". Needs \\usepackage{booktabs}.\n% Medians over " + counted(table.views, "view") +
-                    ", with bootstrap intervals at 95 %.\n" + median_table(table, summary);
+                    ", with bootstrap intervals at 95 %.\n" + latex_medians(table, summary);
   const std::vector<KindBest> best = best_of_kinds(rows, summary);
   return best.empty() ? out : out + kind_table(best, summary);
 }
@@ -121,7 +121,7 @@ std::string latex_method(const std::vector<Row>& rows, const Summary& summary) {
     const Machine& m = row.machine;
     machines.insert(latex_text(m.renderer + " on " + m.cpu + " (" + std::to_string(m.cores) +
                                " cores), gnomon " + m.version + ", rays: " + m.rays));
-    entries = entries || !row.technique.entry.empty();
+    entries = entries || row.technique.is_given();
   }
   std::string out = "\\section{Method}\n";
   out += counted(summary.techniques.size(), "technique") + " were measured on " +

@@ -1,6 +1,7 @@
 // The report: one file of HTML that needs nothing else, and its charts and tables as files of their own.
 #include "gnomon/report/page.hpp"
 
+#include "budgets.hpp"
 #include "charts.hpp"
 #include "expected.hpp"
 #include "file.hpp"
@@ -161,6 +162,7 @@ std::filesystem::path write_report(const std::filesystem::path& folder, std::vec
   write_text(folder / "fronts.md", front_tables(input.summary));
   write_text(folder / "views.csv", views_csv(input.rows, input.summary, kTechniqueHead, technique_columns));
   write_text(folder / "kinds.csv", kinds_csv(input.rows, input.summary));
+  write_text(folder / "budgets.json", budgets_json(input.rows, input.summary));
   write_text(folder / "pairs.csv", pairs_csv(input.summary));
   write_text(folder / "frames.csv", frames_csv(input.rows));
   write_text(folder / "tables.tex", latex_tables(input.rows, input.summary));

@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "budgets.hpp"
 #include "charts.hpp"
 #include "expected.hpp"
 #include "file.hpp"
@@ -156,7 +157,8 @@ std::string missing_note(const Summary& summary) {
 std::string section_error_time(const PageInput& input) {
   const Summary& summary = input.summary;
   std::string out =
-      "<section id=\"s1\">\n<h2>1. Error against run time</h2>\n<p>Each mark is a technique: colour by "
+      "<section id=\"s1\">\n<h2>1. Error against run time</h2>\n" + budget_part(input.rows, summary) +
+      "<p>Each mark is a technique: colour by "
       "filter, shape by "
       "warp or page policy. Lower left is better. The dashed line is the front: no other technique is better "
       "in both. An error of 0 lies on the lower edge. For all scenes together, errors are means and times "

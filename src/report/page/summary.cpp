@@ -145,8 +145,7 @@ const std::vector<Measure>& measures() {
       {"plan_us", "planning", "\xC2\xB5s", "plan, \xC2\xB5s", true,
        // The maps of a capture were planned elsewhere.
        [](const Row& r) {
-         return r.technique.entry.empty() ? r.times.plan_ns.median * kMicrosecondsPerNanosecond
-                                          : kNotMeasured;
+         return r.technique.is_given() ? kNotMeasured : r.times.plan_ns.median * kMicrosecondsPerNanosecond;
        }},
       {"depth_ms", "drawing depths", "ms", "depth, ms", true,
        [](const Row& r) { return of_maps(r, r.times.depth_ms.median); }},

@@ -49,11 +49,6 @@ std::vector<std::size_t> best_of_filters(const ViewTable& table, const Summary& 
   return best;
 }
 
-std::string interval_text(const Measure& measure, const Estimate& e) {
-  return measure.text(e.median) + " (" + short_number(measure.shown(e.low)) + " to " +
-         short_number(measure.shown(e.high)) + ")";
-}
-
 std::string median_table(const ViewTable& table, const Summary& summary) {
   std::string out = scroll_box("Medians over views", true) + "<table><thead><tr><th>technique</th>";
   for (const std::string_view key : kOverViews)
@@ -63,7 +58,7 @@ std::string median_table(const ViewTable& table, const Summary& summary) {
     out += "<tr><td>" + escaped(summary.techniques[t].name()) + "</td>";
     for (const std::string_view key : kOverViews) {
       const std::optional<Estimate> e = table.over(key, t);
-      out += "<td>" + (e ? escaped(interval_text(measures()[measure_index(key)], *e)) : "-") + "</td>";
+      out += "<td>" + (e ? escaped(with_interval(measures()[measure_index(key)], *e)) : "-") + "</td>";
     }
     out += "</tr>\n";
   }
@@ -73,7 +68,6 @@ std::string median_table(const ViewTable& table, const Summary& summary) {
 std::string pair_table(const ViewTable& table, const Summary& summary) {
   const std::vector<std::size_t> best = best_of_filters(table, summary);
   if (best.size() < 2) return {};
-  constexpr double kSure = 0.05;
   std::string out = "<h3>In how many views</h3>\n<p class=\"note\">" +
                     escaped(measures()[measure_index(table.error)].name) +
                     ": the views in which the row's technique has less of it than the column's, of those in "
@@ -95,6 +89,16 @@ std::string pair_table(const ViewTable& table, const Summary& summary) {
 }
 
 }  // namespace
+
+std::string with_interval(const Measure& measure, const Estimate& e) {
+  return measure.text(e.median) + " (" + short_number(measure.shown(e.low)) + " to " +
+         short_number(measure.shown(e.high)) + ")";
+}
+
+bool ViewTable::everywhere(std::string_view measure, std::size_t technique) const {
+  const std::vector<double>& of = values[place_in(measure)][technique];
+  return !of.empty() && std::all_of(of.begin(), of.end(), [](double value) { return std::isfinite(value); });
+}
 
 std::optional<Estimate> ViewTable::over(std::string_view measure, std::size_t technique) const {
   std::vector<double> finite;
@@ -188,8 +192,8 @@ Chart view_chart(const ViewTable& table, const Summary& summary) {
         std::find(summary.kinds.begin(), summary.kinds.end(), summary.techniques[p.technique].kind()) -
         summary.kinds.begin());
     const std::string tip = summary.techniques[p.technique].name() + "; " + std::string(error.column) + " " +
-                            interval_text(error, p.error) + "; " + std::string(cost.column) + " " +
-                            interval_text(cost, p.cost);
+                            with_interval(error, p.error) + "; " + std::string(cost.column) + " " +
+                            with_interval(cost, p.cost);
     const double level = error.shown(p.error.median);
     chart.line({{p.cost.low, level}, {p.cost.high, level}}, color, "line", tip);
     chart.line({{p.cost.median, error.shown(p.error.low)}, {p.cost.median, error.shown(p.error.high)}}, color,

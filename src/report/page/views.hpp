@@ -14,8 +14,15 @@
 namespace gnomon::report {
 
 /// What is gathered over views, by the keys of measures().
-inline constexpr std::array<std::string_view, 5> kOverViews{"wrong", "pixel_error", "mean_error", "twinkle",
-                                                            "ratio"};
+inline constexpr std::array<std::string_view, 6> kOverViews{"wrong",   "pixel_error", "mean_error",
+                                                            "twinkle", "ratio",       "total_ms"};
+/// Of them, the errors that techniques are chosen by.
+inline constexpr std::array<std::string_view, 3> kErrors{"wrong", "pixel_error", "twinkle"};
+/// A sign test below this chance makes a difference sure.
+inline constexpr double kSure = 0.05;
+
+/// "1.2 % (1.1 to 1.4)".
+[[nodiscard]] std::string with_interval(const Measure& measure, const Estimate& e);
 
 /// A view is one frame of one scene under one light: all that techniques share.
 struct ViewTable {
@@ -29,6 +36,8 @@ struct ViewTable {
 
   /// Median over the views with its interval; nothing where no view has it.
   [[nodiscard]] std::optional<Estimate> over(std::string_view measure, std::size_t technique) const;
+  /// True where every view has it.
+  [[nodiscard]] bool everywhere(std::string_view measure, std::size_t technique) const;
   /// In how many views the first has the smaller value.
   [[nodiscard]] SignTest compared(std::string_view measure, std::size_t first, std::size_t second) const;
   /// Times of the same technique differ by less than this factor in 95 % of the views; 1: not measured.

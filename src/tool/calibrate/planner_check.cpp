@@ -124,7 +124,7 @@ std::vector<View> views_of(const std::vector<report::Row>& rows) {
   std::vector<View> views;
   for (const report::Row& row : rows) {
     if (row.technique.filter.starts_with(kIrregular)) continue;  // no model predicts it: it reads no map
-    if (!row.technique.entry.empty()) continue;                  // planned by others
+    if (row.technique.is_given()) continue;                  // planned by others
     if (!row.camera.empty()) continue;                           // rows do not hold what the path's file does
     const std::string name =
         fmt::format("{} {}/{} {} {:g}/{:g} {}x{}", row.scene, row.frame + 1, row.frames, row.light,

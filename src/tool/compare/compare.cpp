@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -208,13 +209,17 @@ class Run {
         file_(fs::path(parts.front().sweep.out) / report::kRowsFile, std::move(lock)),
         progress_("gnomon compare, " + std::to_string(rows_in_all()) + " rows, steps", steps_in_all()) {}
 
-  void all() {
+  /// Returns how many frames time did not allow.
+  std::size_t all() {
     for (const Part& part : parts_) {
       for (std::size_t scene = 0; scene < part.sweep.scenes.size(); ++scene) one_scene(part, scene);
     }
+    return frames_left_;
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   /// Errors of a row weigh as much as its rounds.
   [[nodiscard]] static int steps_of_errors(const Sweep& sweep) { return sweep.rounds + 1; }
 
@@ -262,6 +267,11 @@ class Run {
     for (int frame = 0; frame < part.sweep.frames; ++frame) {
       std::vector<Task> tasks = tasks_in(part, scene, frame);
       if (tasks.empty()) continue;
+      if (is_late()) {
+        ++frames_left_;
+        continue;
+      }
+      const Clock::time_point frame_begin = Clock::now();
       if (!stage) {
         stage = std::make_unique<Stage>(part.sweep, part.sweep.scenes[scene], exact_results(part, scene));
         refuse_entries(part, *stage, scene);
@@ -272,7 +282,15 @@ class Run {
       std::erase_if(tasks, refused);
       if (tasks.empty()) continue;
       one_frame(part, *stage, scene, frame, tasks);
+      longest_ = std::max(longest_, Clock::now() - frame_begin);
     }
+  }
+
+  /// True where another frame, as long as the longest so far, would end too late. The first never does.
+  [[nodiscard]] bool is_late() const {
+    const double seconds = parts_.front().request->seconds;
+    return seconds > 0.0 && longest_ > Clock::duration::zero() &&
+           std::chrono::duration<double>(Clock::now() - begin_ + longest_).count() > seconds;
   }
 
   void step(long long count) {
@@ -328,6 +346,9 @@ class Run {
   report::RowsFile file_;
   Progress progress_;
   long long steps_ = 0;
+  Clock::time_point begin_ = Clock::now();
+  Clock::duration longest_{};  ///< of a frame
+  std::size_t frames_left_ = 0;
 };
 
 /// Takes cameras and sun from a capture.
@@ -441,9 +462,10 @@ Compared compare(std::span<const CompareRequest> requests) {
     known = known_keys(parts, first.resume);
   }
   watch_interrupts();
-  Run(parts, machine(context->info()), std::move(known), std::move(*lock), refused).all();
+  const std::size_t frames_left =
+      Run(parts, machine(context->info()), std::move(known), std::move(*lock), refused).all();
   // A shard's report would show a part as if it were the whole.
-  return {(fs::path(out) / report::kRowsFile).string(),
+  return {frames_left, (fs::path(out) / report::kRowsFile).string(),
           first.shards == 1 ? report::write_report(out).string() : std::string(), refused.lines()};
 }
 

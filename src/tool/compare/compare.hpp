@@ -20,6 +20,7 @@ struct ViewFiles {
 struct CompareRequest : SweepRequest {
   std::size_t shard = 0, shards = 1;  ///< of the rows, each `shards`-th from `shard` on
   double map_memory_mib = 0.0;        ///< that a technique's maps may take; 0: what there is
+  double seconds = 0.0;               ///< no frame is begun that would last longer; 0: all are measured
   bool resume = false;                ///< rows that the folder has are not measured again
   std::vector<EntryWord> entries;     ///< techniques of others
   std::string capture;                ///< file whose cameras and sun are taken; empty: none
@@ -34,13 +35,17 @@ struct CompareRequest : SweepRequest {
 
 /// Where it went.
 struct Compared {
+  std::size_t frames_left = 0;       ///< frames that time did not allow
   std::string rows, page;            ///< files; no page: one of several shards
   std::vector<std::string> refused;  ///< entries of others that are not measured, and why
 };
 /// Appends the rows of all requests, in their order, to `results.jsonl` in their folder, and writes the
-/// report unless this is one of several shards. Folder, shard, context and memory are those of the first,
-/// which there must be. Entries of others that do not fit are named, and all else is measured. Throws
+/// report unless this is one of several shards. Folder, shard, context, memory and time are those of the
+/// first, which there must be. Entries of others that do not fit are named, and all else is measured. Throws
 /// std::runtime_error.
 Compared compare(std::span<const CompareRequest> requests);
+
+/// The options of the command line, bound to the request, which gets their defaults.
+[[nodiscard]] std::vector<Option> compare_options(CompareRequest& request);
 
 }  // namespace gnomon::tool

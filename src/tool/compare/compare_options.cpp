@@ -21,14 +21,14 @@ namespace {
 /// By name: whether the option stands on the command line.
 using Given = std::map<std::string, bool>;
 
-int run_compare(const CompareRequest& request, const OptionsOf& options_of, const Given& given) {
+int run_compare(const CompareRequest& request, const Given& given) {
   const bool is_study = request.scenes.size() == 1 && is_study_file(request.scenes.front());
   for (const auto& [option, stands] : given) {
     if (is_study && stands && option != "SCENE" && !stands_beside_study(option))
       throw std::runtime_error(option + ": not beside a study, whose file has it as a field");
   }
   const std::vector<CompareRequest> requests =
-      is_study ? read_study(request.scenes.front(), request, options_of) : std::vector{request};
+      is_study ? read_study(request.scenes.front(), request, compare_options) : std::vector{request};
   const Compared done = compare(requests);
   if (request.json) {
     print_line(nlohmann::json{{"rows", done.rows}, {"report", done.page}, {"refused", done.refused}}.dump());
@@ -215,7 +215,9 @@ std::string compare_footer() {
          "bad input.\n";
 }
 
-std::vector<Option> options_of(CompareRequest& request) {
+}  // namespace
+
+std::vector<Option> compare_options(CompareRequest& request) {
   request.out = "out/compare";
   request.pixel_samples = report::kPixelSamples;
   std::vector<Option> options{scenes_option(request, "builtin:NAME or glTF files; or one study.json", true)};
@@ -226,15 +228,13 @@ std::vector<Option> options_of(CompareRequest& request) {
   return options;
 }
 
-}  // namespace
-
 std::function<int()> declare_compare(Arguments& arguments) {
   const auto request = std::make_shared<CompareRequest>();
   const auto given = std::make_shared<Given>();
-  arguments.options = options_of(*request);
+  arguments.options = compare_options(*request);
   for (Option& option : arguments.options) option.given = &(*given)[option.name];
   arguments.footer = compare_footer();
-  return [request, given] { return run_compare(*request, options_of, *given); };
+  return [request, given] { return run_compare(*request, *given); };
 }
 
 }  // namespace gnomon::tool

@@ -114,14 +114,17 @@ const CapturedMaps::Frame* CapturedMaps::at(const Camera& camera) const noexcept
   return found == frames.end() ? nullptr : &*found;
 }
 
-EntryWord entry_word(const std::string& option, const std::string& word) {
+bool is_entry_name(const std::string& name) noexcept {
   constexpr std::size_t kLongest = 60;
+  return !name.empty() && name.size() <= kLongest &&
+         std::none_of(name.begin(), name.end(),
+                      [](unsigned char c) { return c < ' ' || c == 0x7f || c == '/' || c == '|'; });
+}
+
+EntryWord entry_word(const std::string& option, const std::string& word) {
   const std::size_t equals = word.find('=');
   const EntryWord entry{word.substr(0, equals), equals == std::string::npos ? "" : word.substr(equals + 1)};
-  const bool is_plain = std::none_of(entry.name.begin(), entry.name.end(), [](unsigned char c) {
-    return c < ' ' || c == 0x7f || c == '/' || c == '|';
-  });
-  if (entry.path.empty() || entry.name.empty() || entry.name.size() > kLongest || !is_plain)
+  if (entry.path.empty() || !is_entry_name(entry.name))
     refuse_entry(option + " " + one_line(word, 80),
                  "wants NAME=PATH, with a name of at most 60 characters other than / and |");
   return entry;

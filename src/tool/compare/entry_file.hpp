@@ -16,6 +16,8 @@ namespace gnomon::tool {
 struct EntryWord {
   std::string name, path;
 };
+/// True for a name that rows and files can hold.
+[[nodiscard]] bool is_entry_name(const std::string& name) noexcept;
 /// Throws std::runtime_error where there is no name, or one that rows and files cannot hold.
 [[nodiscard]] EntryWord entry_word(const std::string& option, const std::string& word);
 

@@ -12,6 +12,7 @@
 #include "base/json_scan.hpp"
 #include "base/json_words.hpp"
 #include "gnomon/casefile/casefile.hpp"
+#include "page_setting.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -23,7 +24,7 @@ constexpr std::string_view kOfLine[] = {"--out",     "--resume",         "--shar
                                         "--context", "--map-memory-mib", "--write-masks", "--exact"};
 
 /// Fields of a view that are no options: what it is called, and what its files are.
-constexpr const char* kOfView[] = {"name", "hash", "licence", "source", "optional"};
+constexpr const char* kOfView[] = {"name", "hash", "licence", "source", "optional", "techniques"};
 
 [[noreturn]] void refuse(const std::string& field, const std::string& why) {
   throw std::runtime_error(field + ": " + why);
@@ -110,6 +111,60 @@ void set_fields(const std::string& where, const Json& object, const std::vector<
   }
 }
 
+/// One technique of a list, as a row has it. One that has a name says where it is from, what differs from
+/// its description, and how it was checked.
+report::Technique technique_of(const std::string& field, const Json& object) {
+  constexpr const char* kOfPeople[] = {"source", "differs", "checked"};
+  if (!object.is_object()) refuse(field, "needs an object");
+  report::Technique t{"none", "auto", "tight", "hard"};
+  const std::vector<Option> options{
+      {.name = "name", .target = &t.entry, .help = {}},
+      {.name = "warp", .target = &t.warp, .help = {}},
+      {.name = "split", .target = &t.split, .help = {}},
+      {.name = "fit", .target = &t.fit, .help = {}},
+      {.name = "filter", .target = &t.filter, .help = {}},
+      {.name = "layer", .target = &t.layer, .help = {}},
+      {.name = "cascades", .target = &t.cascades, .help = {}, .range = {{1, kMaxMaps}}},
+      {.name = "map_size", .target = &t.map_size, .help = {}, .range = {{kLeastMapSize, kMaxMapSize}}},
+      {.name = "pages", .target = &t.pages, .help = {}},
+      {.name = "page_texels",
+       .target = &t.page_texels,
+       .help = {},
+       .range = {{kLeastPageTexels, kMaxPageTexels}}},
+      {.name = "page_target_m", .target = &t.page_target_m, .help = {}, .range = {{0.0, kMaxTargetM}}}};
+  if (object.contains("pages")) t.page_texels = 128;
+  set_fields(field + ".", object, options, {std::begin(kOfPeople), std::end(kOfPeople)});
+  if (object.contains("name") && !is_entry_name(t.entry))
+    refuse(field + ".name", "wants at most 60 characters other than / and |");
+  for (const char* const text : kOfPeople) {
+    const bool has = object.contains(text);
+    if (has ? !object[text].is_string() || object[text].get<std::string>().empty() : !t.entry.empty())
+      refuse(field + "." + text, "needs a text");
+  }
+  if (!t.pages.empty() && !is_page_size(t.page_texels))
+    refuse(field + ".page_texels", "wants 64, 128 or 256");
+  try {
+    (void)sweep_entry(t);
+  } catch (const std::runtime_error& error) {
+    refuse(field, error.what());
+  }
+  return t;
+}
+
+/// `techniques` of the view, else of the file.
+std::vector<report::Technique> techniques_of(const std::string& where, const std::string& before_field,
+                                             const Json& study, const Json& view) {
+  const bool of_view = view.contains("techniques");
+  const std::string field = (of_view ? before_field : where) + "techniques";
+  std::vector<report::Technique> techniques;
+  if (!of_view && !study.contains("techniques")) return techniques;
+  const Json& list = of_view ? view["techniques"] : study["techniques"];
+  if (!list.is_array()) refuse(field, "needs a list of objects");
+  for (std::size_t i = 0; i < list.size(); ++i)
+    techniques.push_back(technique_of(field + "[" + std::to_string(i) + "]", list[i]));
+  return techniques;
+}
+
 /// What a view is called, and what its files must be.
 void set_manifest(const std::string& before_field, const Json& view, CompareRequest& request,
                   std::set<std::string>& names) {
@@ -142,18 +197,14 @@ bool is_left_out(const CompareRequest& request) {
   return false;
 }
 
-Json parsed(const std::filesystem::path& file) {
-  constexpr std::uint64_t kMaxBytes = 1u << 20;
+Json parsed(const std::string& name, std::string_view text) {
   constexpr int kDepth = 8;
-  std::string text;
-  if (const std::string why = read_bounded_file(file, kMaxBytes, Readable::file_or_pipe, text); !why.empty())
-    refuse(file.string(), why);
   if (nested_deeper_at(text, kDepth) != std::string_view::npos)
-    refuse(file.string(), "nested deeper than " + std::to_string(kDepth) + " levels");
+    refuse(name, "nested deeper than " + std::to_string(kDepth) + " levels");
   try {
     return Json::parse(text);
   } catch (const Json::exception& error) {
-    refuse(file.string(), json_words(error.what()));
+    refuse(name, json_words(error.what()));
   }
 }
 
@@ -169,8 +220,17 @@ bool is_study_file(const std::string& word) {
 
 std::vector<CompareRequest> read_study(const std::filesystem::path& file, const CompareRequest& line,
                                        const OptionsOf& options_of) {
-  const Json study = parsed(file);
-  const std::string where = file.string() + ": ";
+  constexpr std::uint64_t kMaxBytes = 1u << 20;
+  std::string text;
+  if (const std::string why = read_bounded_file(file, kMaxBytes, Readable::file_or_pipe, text); !why.empty())
+    refuse(file.string(), why);
+  return study_from(text, file.string(), line, options_of);
+}
+
+std::vector<CompareRequest> study_from(std::string_view text, const std::string& name,
+                                       const CompareRequest& line, const OptionsOf& options_of) {
+  const Json study = parsed(name, text);
+  const std::string where = name + ": ";
   if (!study.is_object()) throw std::runtime_error(where + "needs an object");
   if (!study.contains("schema") || study["schema"] != kSchema)
     refuse(where + "schema", "must be \"" + std::string(kSchema) + "\"");
@@ -185,11 +245,12 @@ std::vector<CompareRequest> read_study(const std::filesystem::path& file, const 
     const std::string of_view = has_views ? "views[" + std::to_string(i) + "]" : "";
     if (!views[i].is_object()) refuse(where + of_view, "needs an object");
     const std::vector<Option> options = options_of(request);
-    set_fields(where, study, options, {"schema", "views"});
+    set_fields(where, study, options, {"schema", "views", "techniques"});
     const std::string before_field = where + of_view + (has_views ? "." : "");
     set_fields(before_field, views[i], options, {std::begin(kOfView), std::end(kOfView)});
     set_manifest(before_field, views[i], request, names);
-    request.where = file.string() + (has_views ? ": " + of_view : "");
+    request.techniques = techniques_of(where, before_field, study, views[i]);
+    request.where = name + (has_views ? ": " + of_view : "");
     if (request.scenes.empty()) refuse(where + (has_views ? of_view + "." : "") + "scenes", "is missing");
     request.out = line.out;
     request.resume = line.resume;
@@ -200,6 +261,7 @@ std::vector<CompareRequest> read_study(const std::filesystem::path& file, const 
     request.map_memory_mib = line.map_memory_mib;
     request.write_masks = line.write_masks;
     request.exact = line.exact;
+    request.seconds = line.seconds;
   }
   if (std::erase_if(requests, is_left_out) > 0 && requests.empty())
     throw std::runtime_error(where + "no view is left");

@@ -26,4 +26,8 @@ using OptionsOf = std::function<std::vector<Option>(CompareRequest&)>;
 [[nodiscard]] std::vector<CompareRequest> read_study(const std::filesystem::path& file,
                                                      const CompareRequest& line, const OptionsOf& options_of);
 
+/// The same of a text that stands in the program; `name` stands in front of messages.
+[[nodiscard]] std::vector<CompareRequest> study_from(std::string_view text, const std::string& name,
+                                                     const CompareRequest& line, const OptionsOf& options_of);
+
 }  // namespace gnomon::tool

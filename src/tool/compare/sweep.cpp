@@ -233,6 +233,17 @@ std::optional<NoPages> no_pages(const SweepEntry& entry, LightKind light) {
   return std::nullopt;
 }
 
+/// One technique beside the product. Throws std::runtime_error where it cannot be measured.
+SweepEntry named_entry(const report::Technique& technique, LightKind light) {
+  SweepEntry entry = sweep_entry(technique);
+  if (!entry.by_pages()) return entry;
+  if (entry.pages.policy->octaves) set_fit(Fit::stable, entry);
+  entry.pages.capacity = page_capacity(entry, light);
+  if (const std::optional<NoPages> why = no_pages(entry, light))
+    throw std::runtime_error(technique.name() + ": " + why->what + ": " + why->why);
+  return entry;
+}
+
 /// One line for each reason.
 std::vector<std::string> lines_of(const std::vector<NoPages>& left_out) {
   std::vector<NoPages> joined;
@@ -326,7 +337,7 @@ std::vector<std::string> fit_to_memory(Sweep& sweep, double map_memory_mib) {
   std::vector<std::string> lines;
   const LightKind light = sweep.light.kind;
   for (SweepEntry& entry : sweep.entries) {
-    if (!entry.technique.entry.empty()) continue;  // of a size that others chose
+    if (entry.technique.is_given()) continue;  // of a size that others chose
     if (std::string line = fit_to_memory(entry, light, map_memory_mib); !line.empty())
       lines.push_back(std::move(line));
   }
@@ -374,7 +385,7 @@ SweepEntry given_entry(const std::string& name, std::shared_ptr<const GivenMasks
 }
 
 SweepEntry sweep_entry(const report::Technique& technique) {
-  if (!technique.entry.empty())
+  if (technique.is_given())
     throw std::runtime_error(technique.name() +
                              ": gnomon has no plan of it; gnomon compare --entry measures it");
   SweepEntry entry;
@@ -385,6 +396,7 @@ SweepEntry sweep_entry(const report::Technique& technique) {
   set_split(technique_split("--splits", technique.split), entry);
   set_cascades(technique.cascades, entry);
   set_size(technique.map_size, entry);
+  entry.technique.entry = technique.entry;
   if (technique.pages.empty()) return entry;
   set_pages(technique_pages("--pages", technique.pages), entry);
   set_page_texels(technique.page_texels, entry);
@@ -406,6 +418,8 @@ Sweep make_sweep(const SweepRequest& request) {
   sweep.entries = product_of(request, sweep.left_out);
   for (SweepEntry& entry : page_product_of(request, sweep.left_out))
     sweep.entries.push_back(std::move(entry));
+  for (const report::Technique& technique : request.techniques)
+    sweep.entries.push_back(named_entry(technique, request.light.kind));
   // A list that names something twice.
   sweep.entries = without_doubles(std::move(sweep.entries));
   set_filter({}, sweep.baseline);

@@ -28,6 +28,7 @@ struct SweepRequest : Measuring {
   std::vector<int> cascades{1}, map_sizes{1024};
   std::vector<const PagePolicy*> pages = {};  ///< policies beside the maps; none: maps alone
   std::vector<int> page_sizes{128};
+  std::vector<report::Technique> techniques = {};  ///< beside the product, each as it is
   double page_target = 0.0;  ///< error m that pages are opened for; 0: the least that the pool holds
   double near_hint = 0.0;    ///< of split pseudo_near: view depth from which error counts
   bool visible_depths = false, visible_points = false;  ///< plan with what a frame shows

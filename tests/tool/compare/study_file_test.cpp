@@ -88,6 +88,20 @@ TEST(StudyFile, is_refused_by_the_field_that_is_wrong) {
        "study.json: views[0].hash: builtin:fence has none, and not 0123456789abcdef"},
       {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "exact": "x"})",
        "study.json: exact: belongs on the command line"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "techniques": {}})",
+       "study.json: techniques: needs a list"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "techniques": [{"filter": "pcg"}]})",
+       "study.json: techniques[0]: --filters 'pcg'"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "techniques": [{"cascades": 9}]})",
+       "study.json: techniques[0].cascades: is not from 1"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "techniques": [{"wrap": "none"}]})",
+       "study.json: techniques[0].wrap: is no field of a study; did you mean 'warp'"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "techniques": [{"name": "theirs", "source": "a", "differs": "b"}]})",
+       "study.json: techniques[0].checked: needs a text"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "techniques": [{"name": "a/b", "source": "a", "differs": "b", "checked": "c"}]})",
+       "study.json: techniques[0].name: wants at most 60"},
+      {R"({"schema": "gnomon-study/1", "views": [{"scenes": "builtin:fence", "techniques": [{"pages": "clipmap", "page_texels": 100}]}]})",
+       "study.json: views[0].techniques[0].page_texels: wants 64, 128 or 256"},
       {R"({"schema": "gnomon-study/1", )", "study.json: "},
   };
   for (const auto& [text, names] : cases) {
@@ -98,6 +112,38 @@ TEST(StudyFile, is_refused_by_the_field_that_is_wrong) {
     EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
     EXPECT_FALSE(fs::exists(folder.path() / "out")) << text;
   }
+}
+
+TEST(StudyFile, measures_techniques_beside_the_product_by_their_names) {
+  const TemporaryFolder folder;
+  const std::string text = R"({"schema": "gnomon-study/1", "filters": "hard", "warps": "none", "cascades": 1,
+    "map_sizes": 64, "frames": 1, "rounds": 1, "size": "64x36", "scenes": "builtin:fence", "techniques": [
+    {"filter": "hard", "map_size": 64},
+    {"filter": "pcf", "warp": "optimal", "map_size": 128},
+    {"name": "theirs", "fit": "stable", "split": "practical", "cascades": 2, "map_size": 64, "source": "a", "differs": "b", "checked": "c"},
+    {"name": "their pages", "pages": "clipmap", "cascades": 2, "map_size": 256, "page_texels": 64, "source": "a", "differs": "b", "checked": "c"}]})";
+  const Finished finished = compared_by(folder, text);
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path() / "out");
+  ASSERT_EQ(rows.size(), 4u) << "the first is the product's";
+  EXPECT_EQ(rows[1].technique.name(), "optimal / auto / 1 x 128 / pcf");
+  EXPECT_EQ(rows[2].technique.name(), "theirs / 2 x 64 / hard");
+  EXPECT_EQ(rows[2].technique.fit, "stable");
+  EXPECT_FALSE(rows[2].technique.is_given());
+  EXPECT_EQ(rows[2].costs.maps, 2);
+  EXPECT_GT(rows[2].times.plan_ns.median, 0.0);
+  EXPECT_EQ(rows[3].technique.entry, "their pages");
+  EXPECT_GT(rows[3].costs.maps, 0);
+  // The same plan without a name has the same errors.
+  const TemporaryFolder other;
+  std::string unnamed = text;
+  const std::string name = R"("name": "theirs", )";
+  unnamed.erase(unnamed.find(name), name.size());
+  ASSERT_EQ(compared_by(other, unnamed).exit_code, 0);
+  const report::Row plain = report::read_rows(other.path() / "out").at(2);
+  EXPECT_EQ(plain.technique.name(), "none / practical stable / 2 x 64 / hard");
+  EXPECT_EQ(plain.errors.false_lit, rows[2].errors.false_lit);
+  EXPECT_EQ(plain.errors.false_shadow, rows[2].errors.false_shadow);
 }
 
 TEST(StudyFile, omits_an_optional_view_whose_file_is_absent_and_names_it) {
