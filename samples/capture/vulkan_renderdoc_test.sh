@@ -19,11 +19,23 @@ write street_capture_4.rdc gnomon
 /usr/bin/python3 -B - <<'END'
 import json
 lines = open("matrices.jsonl").read().splitlines()
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
 for name, line in (("ordinary", 0), ("gnomon", 3)):
+    capture = json.load(open(name + ".json"))
     own = [[m[4 * column + row] for row in range(4) for column in range(4)] for m in json.loads(lines[line])]
     # Both are single precision: nine digits bring back the bits.
-    found = [[float(f"{x:.9g}") for x in m["clip_from_world"]] for m in json.load(open(name + ".json"))["maps"]]
+    found = [[float(f"{x:.9g}") for x in m["clip_from_world"]] for m in capture["maps"]]
     assert own == found, f"{name}: maps differ from the program's"
+    depths = [m["depths"] for m in capture["maps"]]
+    assert all(a[0] < a[1] == b[0] for a, b in zip(depths, depths[1:])), f"{name}: {depths}"
+    assert all(m["bias"]["depth"] > 0.0 and m["bias"]["slope_factor"] == 2.0 for m in capture["maps"]), f"{name}: bias"
+    # Points are relative to the eye here, and what is seen faces it.
+    points = capture["points"]
+    assert len(points) > 1000 and all(dot(p[:3], p[3:]) < 0.0 for p in points), f"{name}: points that face away"
+    right, up, back = (capture["camera"]["view_from_world"][4 * row:4 * row + 3] for row in range(3))
+    across = [right[1] * up[2] - right[2] * up[1], right[2] * up[0] - right[0] * up[2], right[0] * up[1] - right[1] * up[0]]
+    assert dot(across, back) > 0.999, f"{name}: a view that mirrors"
 END
 for name in ordinary gnomon; do "$bin/gnomon" judge "$name.json" --max-findings 0; done
 ! write street_capture.rdc wrong 'no_such_name[]' 2>wrong.txt
