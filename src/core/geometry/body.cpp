@@ -373,6 +373,10 @@ Polytope frustum_slice(const Camera& camera, const CameraAxes& axes, double begi
   return body;
 }
 
+double clip_rounding(const Polytope& body) noexcept {
+  return kClipTolerance * size_of_planes(body);
+}
+
 void clip(Polytope& body, const Plane& plane) noexcept {
   Cutter(body).by(plane);
 }

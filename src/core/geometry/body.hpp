@@ -7,6 +7,10 @@
 
 namespace gnomon {
 
+/// Distance at which a whole body beyond a plane may be its rounding, by that of its planes: clip keeps it.
+/// World units.
+[[nodiscard]] double clip_rounding(const Polytope& body) noexcept;
+
 /// Keeps the part with `begin` <= dot(normal, p) <= `end`: as clip by one plane after the other, in less
 /// time. Either end may be infinite; `normal` is a unit vector.
 void clip_to_slab(Polytope& body, const glm::dvec3& normal, double begin, double end) noexcept;

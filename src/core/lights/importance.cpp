@@ -10,6 +10,7 @@
 #include <glm/geometric.hpp>
 #include <new>
 
+#include "geometry/body.hpp"
 #include "geometry/light_axes.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
@@ -132,13 +133,14 @@ bool parts_inside(const LightView& view, const Boxes& boxes, const Box& lit, Box
 /// Marks the faces of the cube that a convex body may reach: no plane between them parts it from the face.
 class FaceFinder {
  public:
-  explicit FaceFinder(const LocalLight& light) noexcept : light_(light) {}
+  /// `rounding`: distance beyond a plane at which clip() keeps points, world units.
+  FaceFinder(const LocalLight& light, double rounding) noexcept : light_(light), rounding_(rounding) {}
 
   void add(const glm::dvec3& point) noexcept {
     const glm::dvec3 offset = point - light_.apex;
     const glm::dvec3 c = light_.has_cone ? light_.base.turned(offset) : offset;
     constexpr double kRounding = 1e-9;
-    const double slack = kRounding * (largest_component(c) + largest_component(light_.apex));
+    const double slack = rounding_ + kRounding * (largest_component(c) + largest_component(light_.apex));
     for (int face = 0; face < 6; ++face) {
       const int axis = face / 2;
       const double distance = face % 2 == 0 ? c[axis] : -c[axis], reach = kFaceSlope * distance + slack;
@@ -146,7 +148,7 @@ class FaceFinder {
       std::uint8_t& sides = inside_[static_cast<std::size_t>(face)];
       sides = static_cast<std::uint8_t>(sides | (reach >= a ? 1 : 0) | (reach >= -a ? 2 : 0) |
                                         (reach >= b ? 4 : 0) | (reach >= -b ? 8 : 0) |
-                                        (distance > -slack ? 16 : 0));
+                                        (distance >= -slack ? 16 : 0));
     }
   }
   [[nodiscard]] int count() const noexcept {
@@ -157,6 +159,7 @@ class FaceFinder {
 
  private:
   const LocalLight& light_;
+  double rounding_;
   std::array<std::uint8_t, 6> inside_{};
 };
 
@@ -168,7 +171,9 @@ void count_maps(const LightView& view, const LocalLight& light, const Polytope& 
     out.seen_maps = out.all_maps = 6;
     return;
   }
-  FaceFinder seen(light), all(light);
+  // A plane of a face has a normal of length 1, which the finder's is not.
+  const double rounding = 2.0 * clip_rounding(body);
+  FaceFinder seen(light, rounding), all(light, rounding);
   for (const Polytope::Vertex& v : body.vertices()) seen.add(v.position);
   for (int corner = 0; corner < 8; ++corner) {
     all.add({(corner & 1) ? parts.max.x : parts.min.x, (corner & 2) ? parts.max.y : parts.min.y,
