@@ -11,8 +11,12 @@
 #include "geometry/vector.hpp"
 #include "gnomon/measure.hpp"
 #include "lanes/elementary.hpp"
+#include "lanes/lanes.hpp"
 
 namespace gnomon {
+
+/// Compilers divide before they choose: in place of 0 then, no quotient of coordinates is too large.
+inline constexpr double kLeastDivisor = 1e-200;
 
 /// Where a ray from the eye is inside a box, as view depths; empty where begin > end.
 struct DepthInterval {
@@ -26,8 +30,8 @@ struct DepthInterval {
       if (start[axis] < box.min[axis] || start[axis] > box.max[axis]) return {1.0, 0.0};
       continue;
     }
-    const double a = (box.min[axis] - start[axis]) / step[axis],
-                 b = (box.max[axis] - start[axis]) / step[axis];
+    const double by = step[axis] + kLeastDivisor;
+    const double a = (box.min[axis] - start[axis]) / by, b = (box.max[axis] - start[axis]) / by;
     range.begin = max_of(range.begin, min_of(a, b));
     range.end = min_of(range.end, max_of(a, b));
   }
@@ -62,7 +66,8 @@ struct DepthTable {
   const double n = camera.near_depth, f = camera.far_depth;
   for (int k = 0; k < table.count; ++k) {
     const double t = (begin + k + 0.5) / grid.depths;
-    table.depth[static_cast<std::size_t>(k)] = n > 0.0 ? n * elementary::pow(f / n, t) : n + (f - n) * t;
+    table.depth[static_cast<std::size_t>(k)] =
+        n > 0.0 ? n * elementary::pow(f / divisor(n, kLeastDivisor), t) : n + (f - n) * t;
   }
   return table;
 }

@@ -67,7 +67,9 @@ struct Extents {
   const double determinant = std::abs(j.xx * j.yy - j.xy * j.yx);
   const double half = 0.5 * (j.xx * j.xx + j.xy * j.xy + j.yx * j.yx + j.yy * j.yy);
   const double spread = (half - determinant) * (half + determinant);
-  const double largest = std::sqrt(half + std::sqrt(spread > 0.0 ? spread : 0.0));
+  // `spread`, and 0 where rounding puts it below: compilers take the root of what they choose from, too.
+  const double known = 0.5 * spread + 0.5 * std::abs(spread);
+  const double largest = std::sqrt(half + std::sqrt(known));
   // Vector units take no branches and divide by zero where the quotient is thrown away, too. This changes no
   // bit of what is above 1e-133.
   constexpr double kLeast = 1e-150;

@@ -62,8 +62,8 @@ GNOMON_WIDE void find_places(const MetricFrame& f, MetricBlock& b, std::size_t c
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 p = b.point[i];
     const double w = m[0][3] * p.x + m[1][3] * p.y + m[2][3] * p.z + m[3][3];
-    // What lies behind is outside, whatever comes out.
-    const double inverse = 1.0 / (w + kLeastW);
+    // What lies behind is outside, whatever comes out; at w = 0 gradients of 1e120 would overflow.
+    const double inverse = 1.0 / (w + (w > 0.0 ? kLeastW : 1.0 - w));
     const double x = (m[0][0] * p.x + m[1][0] * p.y + m[2][0] * p.z + m[3][0]) * inverse;
     const double y = (m[0][1] * p.x + m[1][1] * p.y + m[2][1] * p.z + m[3][1]) * inverse;
     b.inverse_w[i] = inverse;

@@ -214,13 +214,11 @@ float rounded_up(double value) noexcept {
 
 void Needs::store(const PageBase& base, std::size_t lane, const glm::dvec2& m_per_map) noexcept {
   const glm::dvec3 point = block_.point[lane];
-  const glm::dvec2 at = base.place(point);
-  // Also false for what is no number.
-  if (!(at.x >= base.low.x && at.y >= base.low.y && at.x <= base.high.x && at.y <= base.high.y) ||
-      !(base.distance(point) > 0.0)) {
+  if (!base.holds(point)) {
     leave_out(index_[lane]);
     return;
   }
+  const glm::dvec2 at = base.place(point);
   c_.memory.points[index_[lane]] = {at.x,
                                     at.y,
                                     rounded_up(m_per_map.x / base.unit.x),

@@ -2,7 +2,6 @@
 #include "check.hpp"
 
 #include <algorithm>
-#include <cfenv>
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -179,23 +178,15 @@ void check_sizes(const nlohmann::ordered_json& value, const PlanOptions& read, c
 bool planned(const Case& input, const gnomon::View& view, ShadowPlan& plan, double& milliseconds,
              Report& report) {
   using Clock = std::chrono::steady_clock;
-  constexpr int kExceptions = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
-  std::feclearexcept(kExceptions);
   const auto begin = Clock::now();
-  plan = make_plan(view, input.light, input.bounds(), input.options);
+  plan =
+      quiet("make_plan", report, [&] { return make_plan(view, input.light, input.bounds(), input.options); });
   milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
-  const int raised = std::fetestexcept(kExceptions);
-  std::feclearexcept(kExceptions);
   report.counts().maps += plan.map_count;
   if (plan.status == PlanStatus::invalid_input) {
     report.add("refused", 1.0, std::string(plan.invalid_field));
     return false;
   }
-  if (raised != 0)
-    report.add("floating_point_exception", 1.0,
-               "make_plan raises" + std::string((raised & FE_INVALID) ? " invalid" : "") +
-                   ((raised & FE_DIVBYZERO) ? " division by zero" : "") +
-                   ((raised & FE_OVERFLOW) ? " overflow" : ""));
   check_numbers(input, plan, report);
   return all_finite(plan);
 }

@@ -1,6 +1,7 @@
 // What a plan owes its caller, checked in long double against nothing but the case and the plan.
 #pragma once
 
+#include <cfenv>
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -58,6 +59,21 @@ class Report {
   Verdict& verdict_;
   std::string_view words_;
 };
+/// Runs what `who` names; a finding where a program that traps floating-point exceptions would have died.
+template <typename Work>
+auto quiet(const char* who, Report& report, Work&& work) {
+  constexpr int kTrapped = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW;
+  std::feclearexcept(kTrapped);
+  auto result = work();
+  const int raised = std::fetestexcept(kTrapped);
+  std::feclearexcept(kTrapped);
+  if (raised != 0)
+    report.add("floating_point_exception", 1.0,
+               std::string(who) + " raises" + ((raised & FE_INVALID) != 0 ? " invalid" : "") +
+                   ((raised & FE_DIVBYZERO) != 0 ? " division by zero" : "") +
+                   ((raised & FE_OVERFLOW) != 0 ? " overflow" : ""));
+  return result;
+}
 /// The numbers of each map and of the plan as a whole.
 void check_numbers(const Case& input, const ShadowPlan& plan, Report& report);
 /// Places in the receivers that the camera sees, world space: what check_points takes, and what a picture

@@ -211,8 +211,9 @@ void check_light(const Pool& pool, const LightPlan& plan, std::size_t i, Report&
   }
   const bool rests = maps.frames > 1;
   const Camera camera = rests ? camera_round(own.light, own.camera) : own.camera;
-  const ShadowPlan shadows =
-      make_plan({.camera = camera, .points_world = pool.points}, own.light, own.bounds(), own.options);
+  const ShadowPlan shadows = quiet("make_plan", report, [&] {
+    return make_plan({.camera = camera, .points_world = pool.points}, own.light, own.bounds(), own.options);
+  });
   if (shadows.status == PlanStatus::invalid_input) {
     report.add("lights_refused", 1.0, std::string(shadows.invalid_field));
     return;
@@ -232,7 +233,7 @@ void check_light(const Pool& pool, const LightPlan& plan, std::size_t i, Report&
 
 void check_lights(const Case& input, std::span<const glm::dvec3> points, Report& report) {
   const Pool pool = pool_of(input, points);
-  const Planned first = planned(pool, pool.options, nullptr);
+  const Planned first = quiet("plan_lights", report, [&] { return planned(pool, pool.options, nullptr); });
   const LightPlan& plan = first.plan;
   if (plan.status == PlanStatus::invalid_input) {
     if (!too_small(pool, plan.invalid_field))

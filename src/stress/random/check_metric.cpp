@@ -181,7 +181,9 @@ void check_measure(const Case& input, const ShadowPlan& plan, const View& view, 
   std::erase_if(receivers, [](const Box& box) {
     return box.empty() || box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z;
   });
-  const AliasingStats stats = measure(plan, input.camera, {input.casters, receivers}, kGrid);
+  const AliasingStats stats = quiet("measure", report, [&] {
+    return measure(plan, input.camera, {input.casters, receivers}, kGrid);
+  });
   const Sampled exact = sample_grid(input, plan, view, light, maps, kGrid);
   const std::size_t sure = exact.sure.size();
   // A twentieth of the points in doubt moves no percentile out of what is allowed below.

@@ -149,8 +149,10 @@ void check_pages(const Case& input, std::span<const glm::dvec3> seen, Report& re
     options.policy = policy;
     options.capacity = kPages;
     std::vector<std::byte> memory(page_memory(kPages, points.size()));
-    const PagePlan plan = plan_pages({.camera = input.camera, .points_world = points}, input.light,
-                                     input.bounds(), options, memory);
+    const PagePlan plan = quiet("plan_pages", report, [&] {
+      return plan_pages({.camera = input.camera, .points_world = points}, input.light, input.bounds(),
+                        options, memory);
+    });
     if (plan.status == PlanStatus::invalid_input) {
       report.add("pages_refused", 1.0, std::string(policy->name) + ": " + std::string(plan.invalid_field));
       continue;
