@@ -9,6 +9,8 @@
 #include <span>
 #include <string>
 
+#include "base/random.hpp"
+#include "check.hpp"
 #include "draw.hpp"
 #include "run.hpp"
 #include "shrink.hpp"
@@ -105,6 +107,25 @@ TEST(RandomNet, plain_cases_have_no_finding) {
     EXPECT_GE(verdict.counts.casters, 3);
     EXPECT_GE(verdict.counts.measured, 6);
   }
+}
+
+TEST(RandomNet, a_million_points_have_their_pages_under_every_policy) {
+  const Case input = read_case(plain_case(kSun).dump());
+  const std::vector<glm::dvec3> seen = seen_places(input);
+  ASSERT_GT(seen.size(), 3u);
+  // What lies between two visible points is in view as well.
+  std::vector<glm::dvec3> points(1'000'000);
+  Random random(3);
+  const auto any = [&] { return seen[static_cast<std::size_t>(random.pick(static_cast<int>(seen.size())))]; };
+  for (glm::dvec3& point : points) {
+    const glm::dvec3 from = any(), to = any();
+    point = from + (to - from) * random.unit();
+  }
+  Verdict verdict;
+  Report report(verdict);
+  check_pages(input, points, report);
+  for (const Finding& f : verdict.findings) ADD_FAILURE() << f.kind << ": " << f.text;
+  EXPECT_GT(verdict.counts.page_points, 1'000'000);
 }
 
 std::span<ShadowMap> maps_of(ShadowPlan& plan) {
