@@ -19,7 +19,7 @@ project, program = pathlib.Path(sys.argv[1]), sys.argv[2]
 schema = json.loads((project / "docs/captures/capture.schema.json").read_text())
 jsonschema.Draft202012Validator.check_schema(schema)
 validator = jsonschema.Draft202012Validator(schema)
-captures = {file.name: json.loads(file.read_text()) for file in sorted((project / "samples/capture").glob("*.json"))}
+captures = {file.name: json.loads(file.read_text()) for file in sorted((project / "samples/capture").rglob("*.json"))}
 assert len(captures) >= 6, captures.keys()
 page = (project / "docs/captures.md").read_text()
 captures["docs/captures.md"] = json.loads(re.search(r"```json\n(.*?)```", page, re.S).group(1))

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "case_table.hpp"
+#include "ogre_captures.hpp"
 #include "ogre_setups.hpp"
 
 namespace {
@@ -174,76 +175,13 @@ void print_table(const std::vector<Row>& table, int cascades, const Row& peer, i
   }
 }
 
-void print_matrix(std::FILE* file, const char* key, const glm::dmat4& m) {
-  std::fprintf(file, "\"%s\": [", key);
-  for (int i = 0; i < 16; ++i) std::fprintf(file, "%s%.17g", i == 0 ? "" : ", ", m[i / 4][i % 4]);
-  std::fprintf(file, "]");
-}
-
-void print_boxes(std::FILE* file, const char* key, const std::vector<Box>& boxes) {
-  std::fprintf(file, "\"%s\": [", key);
-  for (std::size_t i = 0; i < boxes.size(); ++i)
-    std::fprintf(file, "%s{\"min\": [%.17g, %.17g, %.17g], \"max\": [%.17g, %.17g, %.17g]}",
-                 i == 0 ? "" : ", ", boxes[i].min.x, boxes[i].min.y, boxes[i].min.z, boxes[i].max.x,
-                 boxes[i].max.y, boxes[i].max.z);
-  std::fprintf(file, "]");
-}
-
-/// OGRE's maps as a capture for `gnomon judge`.
-bool write_capture(const std::string& name, const peers::OgreMaps& maps, const Case& c) {
-  std::FILE* const file = std::fopen(name.c_str(), "w");
-  if (file == nullptr) return false;
-  const auto* sun = std::get_if<DirectionalLight>(&c.light);
-  std::fprintf(
-      file, "{\"format\": \"gnomon-capture/1\", \"name\": \"OGRE, %d map%s\", \"engine\": \"OGRE 1.12\",\n",
-      maps.count, maps.count == 1 ? "" : "s");
-  std::fprintf(file, "\"camera\": {");
-  print_matrix(file, "view_from_world", view_from_world(c.camera));
-  std::fprintf(file, ", ");
-  print_matrix(file, "clip_from_view", clip_from_view(c.camera));
-  std::fprintf(file, ", \"width\": %d, \"height\": %d},\n", c.camera.width, c.camera.height);
-  std::fprintf(
-      file, "\"lights\": [{\"type\": \"directional\", \"direction\": [%.17g, %.17g, %.17g]}],\n\"maps\": [",
-      sun->direction.x, sun->direction.y, sun->direction.z);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(maps.count); ++i) {
-    std::fprintf(file, "%s{", i == 0 ? "" : ",\n");
-    print_matrix(file, "clip_from_world", maps.clip_from_world[i]);
-    const bool last = i + 1 == static_cast<std::size_t>(maps.count);
-    std::fprintf(file, ", \"width\": 1024, \"height\": 1024, \"depths\": [%.17g, %.17g]}",
-                 i == 0 ? c.camera.near_depth : maps.border[i],
-                 last ? c.camera.far_depth : maps.border[i + 1]);
-  }
-  std::fprintf(file, "],\n");
-  print_boxes(file, "receivers", c.receivers);
-  std::fprintf(file, ",\n");
-  print_boxes(file, "casters", c.casters);
-  std::fprintf(file, "}\n");
-  return std::fclose(file) == 0;
-}
-
-/// Captures of both set-ups on every case, into a folder that is there.
-int write_captures(const std::string& folder, const std::vector<NamedCase>& cases) {
-  for (const NamedCase& c : cases) {
-    OgreScene scene(c);
-    for (const OgreSetup setup : {OgreSetup::lispsm_n_opt, OgreSetup::pssm}) {
-      scene.set_up(setup);
-      const std::string name =
-          folder + "/ogre_" + (setup == OgreSetup::pssm ? "pssm_" : "lispsm_") + c.name + ".json";
-      if (write_capture(name, scene.maps(setup), c)) continue;
-      std::fprintf(stderr, "%s: cannot be written\n", name.c_str());
-      return 2;
-    }
-  }
-  return 0;
-}
-
 }  // namespace
 
-// bench_peers_ogre [ROUNDS], or bench_peers_ogre --captures FOLDER
+// bench_peers_ogre [ROUNDS], or bench_peers_ogre --captures FOLDER [CAPTURE...]
 int main(int argc, char** argv) {
-  if (argc == 3 && std::strcmp(argv[1], "--captures") == 0) {
+  if (argc >= 3 && std::strcmp(argv[1], "--captures") == 0) {
     const peers::OgreRoot root;
-    return write_captures(argv[2], load_cases());
+    return peers::write_captures(argv[2], {argv + 3, argv + argc});
   }
   const int rounds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 51;
   const std::vector<NamedCase> cases = load_cases();
