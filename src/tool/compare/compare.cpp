@@ -332,7 +332,7 @@ class Run {
       tasks[i].row.machine.load = current_load();
       if (part.request->write_masks && !is_given)
         write_masks(fs::path(sweep.out) / "masks" / ("technique" + std::to_string(tasks[i].entry)),
-                    tasks[i].row, {truth.camera, truth.before, stage.light()}, masks[i]);
+                    tasks[i].row, {truth.camera, truth.before, stage.light(), stage.bounds()}, masks[i]);
       file_.append(tasks[i].row);
       known_.insert(tasks[i].row.key());
     }

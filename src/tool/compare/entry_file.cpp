@@ -92,6 +92,14 @@ Json matrix_json(const glm::dmat4& matrix) {
   return list;
 }
 
+/// One box around all of them; absent for none.
+void add_bounds(Json& json, const char* key, const Boxes& boxes) {
+  Box all;
+  for (const Box& box : boxes.list()) all.extend(box);
+  if (!all.empty())
+    json[key] = {{"min", {all.min.x, all.min.y, all.min.z}}, {"max", {all.max.x, all.max.y, all.max.z}}};
+}
+
 Json camera_json(const Camera& camera) {
   return {{"view_from_world", matrix_json(view_from_world(camera))},
           {"clip_from_view", matrix_json(clip_from_view(camera))}};
@@ -215,6 +223,8 @@ void write_masks(const std::filesystem::path& folder, const report::Row& row, co
     const glm::dvec3 at = spot != nullptr ? spot->position : std::get<PointLight>(view.light).position;
     json["light_position"] = {at.x, at.y, at.z};
   }
+  add_bounds(json, "casters", view.bounds.casters);
+  add_bounds(json, "receivers", view.bounds.receivers);
   const auto write = [&](const char* key, const std::string& name, const std::vector<float>& values) {
     if (values.empty()) return;
     write_mask(folder / name, values, row.width, row.height);

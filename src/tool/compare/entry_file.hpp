@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "gnomon/bounds.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/report/row.hpp"
 #include "others_frames.hpp"
@@ -37,6 +38,7 @@ inline constexpr const char* kMasksFile = "masks.jsonl";
 struct MaskedView {
   Camera camera, before;
   Light light;
+  SceneBounds bounds;
 };
 /// Masks of one frame; the last two may be empty.
 struct FrameMasks {
