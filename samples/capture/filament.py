@@ -6,7 +6,7 @@
 
 writes FOLDER/VIEW.json for each view of the list, with one map of SIZE texels (1024, Filament's default). Nothing of
 Filament runs: the formulas are those that its comments derive.
-Based on: filament/src/ShadowMap.cpp (applyLISPSM, computeDirectionalShadowBounds), github.com/google/filament, 2024;
+Based on: filament/src/ShadowMap.cpp (applyLISPSM, computeDirectionalShadowBounds), google/filament at 0362f36;
 Wimmer, Scherzer, Purgathofer, "Light Space Perspective Shadow Maps", 2004.
 """
 import itertools

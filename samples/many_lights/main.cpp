@@ -28,28 +28,11 @@ namespace fs = std::filesystem;
 constexpr int kFrames = 6, kWidth = 960, kHeight = 540;
 constexpr double kStep = 0.004;  // of the flight, from frame to frame
 
-/// Parts of 0..1 that are even in all directions (Roberts 2018): the same lights in every run.
-double spread(int index, double ratio) {
-  const double at = 0.5 + index * ratio;
-  return at - std::floor(at);
-}
-
-/// Lights over the scene, a third of them spots that look down, and a faint moon.
+/// Lights over the scene, and a faint moon.
 std::vector<gnomon::LightRequest> place_lights(const gnomon::Scene& scene, int count) {
-  const gnomon::Box& box = scene.bounds_world;
-  const glm::dvec3 size = box.max - box.min;
-  const double spacing = std::sqrt(size.x * size.z / count);
   std::vector<gnomon::LightRequest> lights{{gnomon::DirectionalLight{{0.4, -1.0, 0.3}}, 0.1}};
-  for (int i = 0; i < count; ++i) {
-    const glm::dvec3 at{box.min.x + size.x * spread(i, 0.7548776662), box.min.y + 0.25 * spacing,
-                        box.min.z + size.z * spread(i, 0.5698402910)};
-    if (i % 3 == 0) {
-      lights.push_back({gnomon::SpotLight{
-          at + glm::dvec3(0.0, 0.4 * spacing, 0.0), {0.2, -1.0, 0.1}, 0.7, 2.0 * spacing}});
-    } else {
-      lights.push_back({gnomon::PointLight{at, 1.2 * spacing}});
-    }
-  }
+  for (const gnomon::Light& light : gnomon::local_lights(count, scene.bounds_world))
+    lights.push_back({light});
   return lights;
 }
 

@@ -43,4 +43,25 @@ Light default_light(const LightPlacement& placement, const Box& scene) noexcept 
   return PointLight{middle + glm::dvec3(0.0, 0.3 * size.y, 0.0), 0.75 * extent};
 }
 
+std::vector<Light> local_lights(int count, const Box& scene) {
+  const auto spread = [](int index, double ratio) {
+    const double at = 0.5 + index * ratio;
+    return at - std::floor(at);
+  };
+  const glm::dvec3 size = scene.max - scene.min;
+  const double spacing = std::sqrt(size.x * size.z / count);
+  std::vector<Light> lights;
+  for (int i = 0; i < count; ++i) {
+    const glm::dvec3 at{scene.min.x + size.x * spread(i, 0.7548776662), scene.min.y + 0.25 * spacing,
+                        scene.min.z + size.z * spread(i, 0.5698402910)};
+    if (i % 3 == 0) {
+      lights.emplace_back(
+          SpotLight{at + glm::dvec3(0.0, 0.4 * spacing, 0.0), {0.2, -1.0, 0.1}, 0.7, 2.0 * spacing});
+    } else {
+      lights.emplace_back(PointLight{at, 1.2 * spacing});
+    }
+  }
+  return lights;
+}
+
 }  // namespace gnomon

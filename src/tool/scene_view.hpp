@@ -25,6 +25,8 @@ class SceneView {
 
   [[nodiscard]] const Scene& scene() const noexcept { return scene_; }
   [[nodiscard]] const Light& light() const noexcept { return light_; }
+  /// Takes another light in place of the one placed.
+  void set_light(const Light& light) noexcept { light_ = light; }
   [[nodiscard]] SceneBounds bounds() const noexcept { return boxes_.bounds(); }
   /// Places what a pose of this scene moves, but the light, which stays. bounds() follow in place.
   void take(const Pose& pose);

@@ -28,26 +28,10 @@ namespace {
 
 constexpr ClusterOptions kAll{1 << 16, 1};
 
-/// As samples/many_lights places them: even in the plane, a third of them spots, and a faint moon.
+/// As samples/many_lights places them, with a faint moon.
 std::vector<LightRequest> place_lights(const Scene& scene, int count) {
-  const auto spread = [](int index, double ratio) {
-    const double at = 0.5 + index * ratio;
-    return at - std::floor(at);
-  };
-  const Box& box = scene.bounds_world;
-  const glm::dvec3 size = box.max - box.min;
-  const double spacing = std::sqrt(size.x * size.z / count);
   std::vector<LightRequest> lights{{DirectionalLight{{0.4, -1.0, 0.3}}, 0.1}};
-  for (int i = 0; i < count; ++i) {
-    const glm::dvec3 at{box.min.x + size.x * spread(i, 0.7548776662), box.min.y + 0.25 * spacing,
-                        box.min.z + size.z * spread(i, 0.5698402910)};
-    if (i % 3 == 0) {
-      lights.push_back(
-          {SpotLight{at + glm::dvec3(0.0, 0.4 * spacing, 0.0), {0.2, -1.0, 0.1}, 0.7, 2.0 * spacing}});
-    } else {
-      lights.push_back({PointLight{at, 1.2 * spacing}});
-    }
-  }
+  for (const Light& light : local_lights(count, scene.bounds_world)) lights.push_back({light});
   return lights;
 }
 

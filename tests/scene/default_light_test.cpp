@@ -42,5 +42,27 @@ TEST(DefaultLight, point_light_hangs_inside_the_scene) {
   EXPECT_DOUBLE_EQ(light.range, 0.75 * kLongest);
 }
 
+TEST(DefaultLight, local_lights_are_even_over_the_ground_and_reach_each_part_of_it) {
+  EXPECT_TRUE(local_lights(0, kScene).empty());
+  const std::vector<Light> lights = local_lights(9, kScene);
+  ASSERT_EQ(lights.size(), 9u);
+  int spots = 0;
+  double least_apart = 1e9;
+  std::vector<glm::dvec3> places;
+  for (const Light& light : lights) {
+    const auto* const spot = std::get_if<SpotLight>(&light);
+    spots += spot != nullptr ? 1 : 0;
+    const glm::dvec3 at = spot != nullptr ? spot->position : std::get<PointLight>(light).position;
+    EXPECT_TRUE(at.x >= kScene.min.x && at.x <= kScene.max.x && at.z >= kScene.min.z && at.z <= kScene.max.z);
+    for (const glm::dvec3& other : places)
+      least_apart = std::min(least_apart, glm::length(glm::dvec2(at.x - other.x, at.z - other.z)));
+    places.push_back(at);
+  }
+  EXPECT_EQ(spots, 3);
+  EXPECT_TRUE(std::holds_alternative<SpotLight>(lights.front()));
+  const glm::dvec3 size = kScene.max - kScene.min;
+  EXPECT_GT(least_apart, 0.25 * std::sqrt(size.x * size.z / 9)) << "no two in one place";
+}
+
 }  // namespace
 }  // namespace gnomon::test

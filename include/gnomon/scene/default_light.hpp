@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "gnomon/bounds.hpp"
 #include "gnomon/light.hpp"
@@ -27,5 +28,10 @@ struct LightPlacement {
 /// range 0.75 sides; direction does not matter. In a scene that is one point the range is zero, and in an
 /// empty one the position is not a number: make_plan refuses both.
 [[nodiscard]] Light default_light(const LightPlacement& placement, const Box& scene) noexcept;
+
+/// Local lights, even over the ground of the scene: each third a spot that looks down, the others points.
+/// Each lights somewhat more than its part of the ground. Equal input gives equal lights. `count` >= 0. Based
+/// on: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.
+[[nodiscard]] std::vector<Light> local_lights(int count, const Box& scene);
 
 }  // namespace gnomon

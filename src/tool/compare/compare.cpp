@@ -43,6 +43,14 @@ struct Task {
   report::Row row;
 };
 
+/// As in rows: "spot", or "spot 1 of 8".
+std::string light_text(const Sweep& sweep) {
+  std::string text(to_string(sweep.light.kind));
+  if (sweep.local_lights > 0)
+    text += " " + std::to_string(sweep.local_light + 1) + " of " + std::to_string(sweep.local_lights);
+  return text;
+}
+
 report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::size_t entry) {
   report::Row row;
   row.index = sweep.index(scene, frame, entry);
@@ -51,7 +59,7 @@ report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::siz
   row.frames = sweep.frames;
   row.width = sweep.width;
   row.height = sweep.height;
-  row.light = to_string(sweep.light.kind);
+  row.light = light_text(sweep);
   row.light_elevation_deg = sweep.light.elevation_deg;
   row.light_azimuth_deg = sweep.light.azimuth_deg;
   row.camera = sweep.camera_text;
@@ -189,8 +197,7 @@ ExactResults exact_results(const Part& part, std::size_t scene) {
   const Sweep& s = part.sweep;
   std::string identity = std::string(build_version()) + "\n" +
                          (trace::built_with_embree() ? "embree" : "own") + "\n" + s.scenes[scene] + "\n" +
-                         part.hashes[scene] + "\n" + s.animation + "\n" +
-                         std::string(to_string(s.light.kind));
+                         part.hashes[scene] + "\n" + s.animation + "\n" + light_text(s);
   ExactKey light(fnv_of(identity));
   light.add(s.light.elevation_deg).add(s.light.azimuth_deg);
   identity += "\n" + std::to_string(light.hash());
@@ -402,8 +409,21 @@ void add_entries(const CompareRequest& request, Sweep& sweep, RefusedEntries& re
   }
 }
 
-/// The sweep of a request, numbered behind those before it.
-Part part_of(const CompareRequest& request, const std::vector<Part>& before, RefusedEntries& refused) {
+/// The request with one of its local lights.
+CompareRequest with_local_light(const CompareRequest& request, int light) {
+  CompareRequest one = request;
+  one.local_light = light;
+  const Box any{glm::dvec3(0.0), glm::dvec3(1.0)};
+  const std::vector<Light> lights = local_lights(request.local_lights, any);
+  one.light.kind = std::holds_alternative<SpotLight>(lights[static_cast<std::size_t>(light)])
+                       ? LightKind::spot
+                       : LightKind::point;
+  return one;
+}
+
+/// The sweep of a request under one of its lights, numbered behind those before it.
+Part part_of(const CompareRequest& request, int light, const std::vector<Part>& before,
+             RefusedEntries& refused) {
   Part part{&request, {}, {}};
   try {
     if (!request.capture.empty()) {
@@ -419,7 +439,7 @@ Part part_of(const CompareRequest& request, const std::vector<Part>& before, Ref
       part.sweep.cameras = looked.cameras;
       part.sweep.camera_text = looked.camera_text;
     } else {
-      part.sweep = make_sweep(request);
+      part.sweep = make_sweep(request.local_lights > 0 ? with_local_light(request, light) : request);
     }
     part.sweep.view = request.view;
     add_entries(request, part.sweep, refused);
@@ -441,7 +461,10 @@ Compared compare(std::span<const CompareRequest> requests) {
   const std::string& out = first.out;
   std::vector<Part> parts;
   RefusedEntries refused;
-  for (const CompareRequest& request : requests) parts.push_back(part_of(request, parts, refused));
+  for (const CompareRequest& request : requests) {
+    for (int light = 0; light < std::max(request.local_lights, 1); ++light)
+      parts.push_back(part_of(request, light, parts, refused));
+  }
   check_folder("--out", out);
   std::optional<report::ResultsLock> lock;  // before rows are read: another process may be writing them
   if (fs::is_directory(out)) lock.emplace(out);

@@ -18,6 +18,10 @@ Stage::Stage(const Sweep& sweep, const std::string& scene, ExactResults exact)
     : sweep_(sweep),
       exact_(std::move(exact)),
       view_(scene, sweep.light, sweep.camera, limits_of_triangles(sweep.max_triangles)) {
+  if (sweep.local_lights > 0) {
+    pool_ = LightPool(local_lights(sweep.local_lights, view_.scene().bounds_world));
+    view_.set_light(pool_.light(static_cast<std::size_t>(sweep.local_light)));
+  }
   if (!sweep.animation.empty()) {
     animation_ = find_animation(view_.scene().motion, sweep.animation);
     if (animation_ < 0)
@@ -79,7 +83,11 @@ ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
     coarse = coarse_.depths(view_.scene(), camera);
     seen.depths = &coarse;
   }
-  return make_plan(seen, view_.light(), view_.bounds(), entry.plan);
+  const PlanOptions options =
+      sweep_.local_lights > 0 && entry.shares_texels
+          ? pool_.options_of(static_cast<std::size_t>(sweep_.local_light), seen, view_.bounds(), entry)
+          : entry.plan;
+  return make_plan(seen, view_.light(), view_.bounds(), options);
 }
 
 void Stage::see(int frame) {

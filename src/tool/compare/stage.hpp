@@ -10,6 +10,7 @@
 #include "gnomon/scene/coarse_view.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "light_pool.hpp"
 #include "scene_view.hpp"
 #include "sweep.hpp"
 #include "visible_surfaces.hpp"
@@ -79,6 +80,7 @@ class Stage {
   const Sweep& sweep_;
   ExactResults exact_;
   mutable CoarseView coarse_;  ///< scratch
+  LightPool pool_;             ///< of many lights
   std::vector<View> views_;
   SceneView view_;
   At at_ = At::frame;

@@ -130,12 +130,13 @@ bool is_useless(const Shape* shape, LightKind light) noexcept {
 }
 
 /// True where another entry of the product says the same.
-bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light) {
+bool is_double(const SweepEntry& entry, const Firsts& first, LightKind light, bool many_lights) {
   const report::Technique& t = entry.technique;
   const bool is_tetrahedron = entry.plan.split.partition == Partition::tetrahedron;
   // The maps of a local light follow from its cone and what it lights.
   if (light != LightKind::sun)
-    return (t.split != first.split && !(is_tetrahedron && light == LightKind::point)) ||
+    return (t.split != first.split && !(is_tetrahedron && light == LightKind::point) &&
+            !(many_lights && entry.shares_texels)) ||
            t.cascades != first.cascades || t.fit != first.fit;
   if (is_tetrahedron && t.split != first.split) return true;
   const bool by_depth = entry.plan.split.partition == Partition::view_depth;
@@ -214,7 +215,8 @@ std::vector<SweepEntry> product_of(const SweepRequest& request, std::vector<std:
   if (std::any_of(warps.begin(), warps.end(), [](const TechniqueWarp& w) { return w.name == "none"; }))
     first.warp = "none";
   std::erase_if(entries, [&](const SweepEntry& entry) {
-    return is_useless(entry.plan.warp.shape, light) || is_double(entry, first, light);
+    return is_useless(entry.plan.warp.shape, light) ||
+           is_double(entry, first, light, request.local_lights > 0);
   });
   if (entries.empty()) throw std::runtime_error("--shapes: this light's maps take none of them");
   return entries;
@@ -408,6 +410,8 @@ Sweep make_sweep(const SweepRequest& request) {
   Sweep sweep;
   static_cast<Measuring&>(sweep) = request;
   sweep.pixel_samples = request.pixel_samples;
+  sweep.local_lights = request.local_lights;
+  sweep.local_light = request.local_light;
   check_camera(request.camera);
   sweep.camera_text = camera_text(request.camera);
   sweep.scenes.clear();

@@ -34,6 +34,8 @@ struct SweepRequest : Measuring {
   bool visible_depths = false, visible_points = false;  ///< plan with what a frame shows
   render::MapPasses map_passes = render::MapPasses::automatic;
   int pixel_samples = 0;  ///< rays through each pixel, for errors over whole pixels; 0: none
+  int local_lights = 0;   ///< over the scene, each measured alone; 0: the one placed
+  int local_light = 0;    ///< index of the one that this sweep measures
 };
 
 /// A sweep of one kind of maps, with the hard filter.
@@ -67,14 +69,15 @@ struct SweepEntry {
 /// Every technique once, in the order of the product.
 struct Sweep : Measuring {
   std::vector<SweepEntry> entries;
-  std::vector<std::string> left_out;  ///< combinations that cannot be measured, a line for each reason
-  SweepEntry baseline;                ///< hard x no warp x one map, of the first map size
-  std::string camera_text;            ///< of the camera's words, for rows
-  int pixel_samples = 0;              ///< rays through each pixel; 0: none
-  std::vector<Camera> cameras;        ///< of a capture, in place of the scenes' paths; empty: none
-  std::string view;                   ///< name in a study, for people; empty: none
-  std::uint64_t first_index = 0;      ///< of its rows, where it is part of a study
-  std::size_t first_scene = 0;        ///< number of its first scene there
+  std::vector<std::string> left_out;      ///< combinations that cannot be measured, a line for each reason
+  SweepEntry baseline;                    ///< hard x no warp x one map, of the first map size
+  std::string camera_text;                ///< of the camera's words, for rows
+  int pixel_samples = 0;                  ///< rays through each pixel; 0: none
+  int local_lights = 0, local_light = 0;  ///< as in the request
+  std::vector<Camera> cameras;            ///< of a capture, in place of the scenes' paths; empty: none
+  std::string view;                       ///< name in a study, for people; empty: none
+  std::uint64_t first_index = 0;          ///< of its rows, where it is part of a study
+  std::size_t first_scene = 0;            ///< number of its first scene there
 
   /// Place of a row in the whole sweep.
   [[nodiscard]] std::uint64_t index(std::size_t scene, int frame, std::size_t entry) const noexcept {

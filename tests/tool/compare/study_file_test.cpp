@@ -4,6 +4,7 @@
 #include <fstream>
 #include <set>
 
+#include "compare/light_pool.hpp"
 #include "small_sweep.hpp"
 
 namespace gnomon::test {
@@ -144,6 +145,60 @@ TEST(StudyFile, measures_techniques_beside_the_product_by_their_names) {
   EXPECT_EQ(plain.technique.name(), "none / practical stable / 2 x 64 / hard");
   EXPECT_EQ(plain.errors.false_lit, rows[2].errors.false_lit);
   EXPECT_EQ(plain.errors.false_shadow, rows[2].errors.false_shadow);
+}
+
+TEST(StudyFile, measures_each_of_many_lights_that_share_their_texels) {
+  const TemporaryFolder folder;
+  const std::string text = R"({"schema": "gnomon-study/1", "filters": "hard", "warps": "none", "cascades": 1,
+    "splits": ["auto", "auto:budget"], "map_sizes": 64, "frames": 1, "rounds": 1, "size": "64x36",
+    "local_lights": 4, "scenes": "builtin:hangar", "near": 0.3})";
+  const Finished finished = compared_by(folder, text);
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path() / "out");
+  ASSERT_EQ(rows.size(), 8u);
+  std::set<std::string> lights, keys;
+  for (std::size_t i = 0; i < rows.size(); i += 2) {
+    EXPECT_EQ(rows[i].technique.split, "auto");
+    EXPECT_EQ(rows[i + 1].technique.split, "auto:budget");
+    EXPECT_EQ(rows[i].light, rows[i + 1].light);
+    lights.insert(rows[i].light);
+    keys.insert({rows[i].key(), rows[i + 1].key()});
+  }
+  EXPECT_EQ(lights, (std::set<std::string>{"spot 1 of 4", "point 2 of 4", "point 3 of 4", "spot 4 of 4"}));
+  EXPECT_EQ(keys.size(), 8u);
+  EXPECT_EQ(compared_by(folder, text, {"--resume"}).exit_code, 0);
+  EXPECT_EQ(report::read_rows(folder.path() / "out").size(), 8u);
+}
+
+TEST(LightPool, gives_lights_sizes_of_their_own_within_the_texels_of_equal_maps) {
+  const Box ground{{-30.0, -1.0, -30.0}, {30.0, 0.0, 30.0}}, house{{-4.0, 0.0, -8.0}, {4.0, 6.0, -2.0}};
+  const std::vector<Box> boxes{ground, house};
+  const SceneBounds bounds{boxes, boxes};
+  const std::vector<Light> lights = local_lights(16, {{-30.0, 0.0, -30.0}, {30.0, 6.0, 30.0}});
+  const Camera camera =
+      perspective_camera({0, 5, 25}, {0, -0.2, -1}, {0, 1, 0}, 1.0, 1.5, 0.3, 200.0, 240, 160);
+  tool::SweepEntry entry;
+  entry.technique.map_size = 64;
+  LightOptions options;
+  options.plan = entry.plan;
+  options.least_size = options.most_size = 64;
+  std::vector<LightRequest> requests;
+  for (const Light& light : lights) requests.push_back({light});
+  std::vector<std::byte> memory(light_memory(requests.size(), 0));
+  const LightPlan equal = plan_lights(gnomon::View(camera), requests, bounds, options, memory);
+  ASSERT_GT(equal.texels, 0);
+  const tool::LightPool pool(lights);
+  std::int64_t texels = 0;
+  std::set<int> sizes;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const int size = pool.options_of(i, gnomon::View(camera), bounds, entry).resolution.max_size;
+    if (equal.lights[i].map_count == 0) continue;
+    sizes.insert(size);
+    texels += std::int64_t{equal.lights[i].map_count} * size * size;
+  }
+  EXPECT_GT(sizes.size(), 1u);
+  EXPECT_LE(texels, equal.texels);
+  EXPECT_GT(2 * texels, equal.texels) << "most of the budget is used";
 }
 
 TEST(StudyFile, omits_an_optional_view_whose_file_is_absent_and_names_it) {
