@@ -130,6 +130,12 @@ GNOMON_WIDE void SideSearch::find_samples(const PixelLanes& samples) noexcept {
     form_.yy[i] = static_cast<float>(yy[i] * scale);
     form_.inverse[i] = static_cast<float>(inverse[i] * scale);
   }
+  for (std::size_t i = 0; mean_ && i < n; ++i) {
+    const float x = form_.x[i], y = form_.y[i];
+    turn_first_[i] = form_.xx[i] * y - form_.xy[i] * x;
+    turn_second_[i] = form_.xy[i] * y - form_.yy[i] * x;
+    turn_turn_[i] = turn_first_[i] * y - turn_second_[i] * x;
+  }
 }
 
 GNOMON_WIDE void SideSearch::turn(const Sides& sides, SideLanes& candidates) const noexcept {
@@ -290,18 +296,34 @@ GNOMON_WIDE void SideSearch::find_percentile(const Maps& maps, SideLanes& candid
   for (std::size_t l = 0; l < lanes; ++l) c.value[l] = m.usable[l] > 0.0F ? top[above][l] : kInfinity;
 }
 
+// A texel's squared extents together are a sum over both gradients (turn y + first, second - turn x), of
+// which each is a quadratic form of turn, first and second with six numbers of the sample: for all of a
+// candidate's factors, six products a sample.
 GNOMON_WIDE void SideSearch::find_mean(const Maps& maps, SideLanes& candidates) const noexcept {
   const Maps& __restrict m = maps;
   SideLanes& __restrict c = candidates;
   const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_;
-  alignas(64) FloatLanes sum{};
+  alignas(64) FloatLanes turn2, first2, second2, turn_first, turn_second, first_second, sum{};
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const float a_turn = m.per_b[l] * m.turn_a[l], a_first = m.per_b[l] * m.first_a[l];
+    const float b_turn = m.per_a[l] * m.turn_b[l], b_first = m.per_a[l] * m.first_b[l];
+    turn2[l] = 0.5F * (a_turn * m.turn_a[l] + b_turn * m.turn_b[l]);
+    first2[l] = 0.5F * (a_first * m.first_a[l] + b_first * m.first_b[l]);
+    second2[l] =
+        0.5F * (m.per_b[l] * m.second_a[l] * m.second_a[l] + m.per_a[l] * m.second_b[l] * m.second_b[l]);
+    turn_first[l] = a_turn * m.first_a[l] + b_turn * m.first_b[l];
+    turn_second[l] = a_turn * m.second_a[l] + b_turn * m.second_b[l];
+    first_second[l] = a_first * m.second_a[l] + b_first * m.second_b[l];
+  }
   for (std::size_t i = 0; i < n; ++i) {
-    const Form::Form f0 = form_.at(i);
+    const Form::Form f = form_.at(i);
+    const float tt = turn_turn_[i], tf = turn_first_[i], ts = turn_second_[i];
     for (std::size_t l = 0; l < lanes; ++l) {
-      GNOMON_EXTENTS(f0, 0);
-      // Rounding alone leaves it below 0.
-      const float squared = 0.5F * (m.per_a[l] * extent_a0 + m.per_b[l] * extent_b0);
-      sum[l] += std::sqrt(min_of(std::abs(squared), kFar));
+      const float w = m.w_x[l] * f.x + m.w_y[l] * f.y + m.w_1[l];
+      const float turned = turn2[l] * tt + turn_first[l] * tf + turn_second[l] * ts;
+      const float straight = first2[l] * f.xx + first_second[l] * f.xy + second2[l] * f.yy;
+      // Rounding alone leaves it below 0; w is not, where the candidate is usable.
+      sum[l] += w * std::sqrt(std::abs(turned + straight));
     }
   }
   const float share = n > 0 ? 1.0F / static_cast<float>(n) : 0.0F;

@@ -66,6 +66,8 @@ class SideSearch {
   alignas(64) std::array<double, kMaxPoints> image_x_, image_y_;
   alignas(64) std::array<float, kMaxPoints> point_x_, point_y_, point_w_;
   Form form_;  // of the samples, in the image
+  // Of a mean: what goes by the gradients' turns.
+  alignas(64) std::array<float, PixelLanes::kMost> turn_turn_, turn_first_, turn_second_;
 };
 
 }  // namespace gnomon

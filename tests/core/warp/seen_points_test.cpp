@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "geometry/first_hits.hpp"
+#include "gnomon/extend/body.hpp"
 #include "gnomon/gnomon.hpp"
 
 namespace gnomon::test {
@@ -31,6 +32,16 @@ bool touches(const Box& box, const glm::dvec3& p) {
   for (int c = 0; c < 3; ++c)
     if (p[c] < box.min[c] - kRounding || p[c] > box.max[c] + kRounding) return false;
   return true;
+}
+
+TEST(SeenPoints, inside_of_a_body_are_those_on_its_sides_and_none_beyond) {
+  const Polytope body = box_polytope({{-2, 0, -9}, {2, 3, -5}});
+  const std::vector<glm::dvec3> points = {{0, 1, -7},      {2, 1, -7},  {2 + 1e-9, 1, -7}, {2.001, 1, -7},
+                                          {0, -0.001, -7}, {0, 3, -5},  {0, 3.001, -5},    {0, 1, -4.99},
+                                          {-2, 0, -9},     {-3, 5, -12}};
+  std::array<glm::dvec3, SeenPoints::kMost> inside;
+  ASSERT_EQ(points_inside(body, points, 1e-6, inside), 5u);
+  for (std::size_t i = 0; const std::size_t kept : {0u, 1u, 2u, 5u, 8u}) EXPECT_EQ(inside[i++], points[kept]);
 }
 
 /// Of the boxes that the eye's ray to `point` meets, the one that it enters first.
