@@ -165,6 +165,8 @@ pub fn camera_of(
     gnomon::Camera::from_glam(view_from_world, projection.get_clip_from_view().as_dmat4(), &CLIP_SPACE, size.x, size.y)
 }
 
+type ViewParts<'a> = (Entity, &'a Camera, &'a GlobalTransform, &'a Projection, Option<&'a ShadowFilteringMethod>);
+
 fn overwrite_cascades(
     mut lights: Query<(
         &mut GnomonShadows,
@@ -173,7 +175,7 @@ fn overwrite_cascades(
         &mut CascadeShadowConfig,
         &mut Cascades,
     )>,
-    cameras: Query<(Entity, &Camera, &GlobalTransform, &Projection, Option<&ShadowFilteringMethod>), With<Camera3d>>,
+    cameras: Query<ViewParts, With<Camera3d>>,
     meshes: Query<MeshBounds, With<Mesh3d>>,
     map_size: Res<DirectionalLightShadowMap>,
 ) {

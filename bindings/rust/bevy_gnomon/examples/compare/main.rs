@@ -90,12 +90,12 @@ fn write_picture(file: &Path, exact: &[Pixel], rows: [&Row; 2]) -> std::io::Resu
     let [width, height] = SIZE.map(|n| n as usize);
     let mut out = vec![0; 2 * width * 2 * height * 3];
     for (side, row) in rows.into_iter().enumerate() {
-        for pixel in 0..width * height {
+        for (pixel, &exact) in exact.iter().enumerate() {
             for half in 0..2 {
                 let at = 3 * (((pixel / width + half * height) * 2 + side) * width + pixel % width);
                 for c in 0..3 {
                     let shown = row.picture[4 * pixel + c];
-                    out[at + c] = match (half, is_wrong(exact[pixel], row.first[pixel])) {
+                    out[at + c] = match (half, is_wrong(exact, row.first[pixel])) {
                         (0, _) => shown,
                         (_, true) => [255, 40, 40][c],
                         _ => 150 + shown / 5 * 2,
