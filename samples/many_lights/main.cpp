@@ -4,7 +4,6 @@
 // usage: many_lights [SCENE] [FOLDER] [LIGHTS]     builtin:hangar, out/many_lights and 24 where nothing is
 // said
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -16,6 +15,7 @@
 #include <gnomon/render/filter.hpp>
 #include <gnomon/render/renderer.hpp>
 #include <gnomon/scene/camera_path.hpp>
+#include <gnomon/scene/default_light.hpp>
 #include <gnomon/scene/image.hpp>
 #include <gnomon/scene/load.hpp>
 #include <string>

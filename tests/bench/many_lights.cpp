@@ -7,7 +7,6 @@
 // Each round draws a frame in every way, one after the other, so that all meet the same load.
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -18,6 +17,7 @@
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
 #include "guarded.hpp"
 #include "median.hpp"

@@ -15,7 +15,7 @@ class LightPool {
   explicit LightPool(const std::vector<Light>& lights);
   [[nodiscard]] const Light& light(std::size_t index) const { return requests_.at(index).light; }
   /// Options of one light's plan where plan_lights distributes as many texels as equal maps of the entry's
-  /// size take in the pool. Throws std::runtime_error where plan_lights refuses.
+  /// size take in the pool; sizes are powers of two. Throws std::runtime_error where plan_lights refuses.
   [[nodiscard]] PlanOptions options_of(std::size_t index, const gnomon::View& view, const SceneBounds& bounds,
                                        const SweepEntry& entry) const;
 
