@@ -83,8 +83,9 @@ struct MeasureOptions {
 ///
 /// With View::points_world: at these points. Else over the visible part of the receivers. Samples are a grid
 /// of pixels, with depths along each pixel's ray evenly spaced in their logarithm from near to far plane.
-/// Those in a receiver box count, which is wherever boxes have room. Flat boxes have none: the nearest one on
-/// each ray counts where the ray meets it. Without a single point (`samples` is 0) all numbers are 0.
+/// Those in a receiver box count, which is wherever boxes have room. A thin or flat box may have none on a
+/// ray that meets it: the nearest of those counts where the ray enters it. Without a single point (`samples`
+/// is 0) all numbers are 0.
 [[nodiscard]] AliasingStats measure(const ShadowPlan& plan, const View& view, const SceneBounds& bounds,
                                     const MeasureOptions& options = {}) noexcept;
 

@@ -45,11 +45,6 @@ Range over_depth(Range x, Range depth) noexcept {
   return {x.low / (x.low < 0.0 ? depth.low : depth.high), x.high / (x.high < 0.0 ? depth.high : depth.low)};
 }
 
-/// True for a box that no ray crosses over a length.
-bool is_flat(const Box& box) noexcept {
-  return box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z;
-}
-
 /// The sides of what rays between these rows show, and of a pixel more on each side, in world space.
 std::array<Plane, 6> sides_between(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
                                    std::int64_t first_row, std::int64_t last_row) noexcept {
@@ -82,19 +77,19 @@ struct MarkQuery {
 }  // namespace
 
 VisiblePiece::VisiblePiece(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
-                           const DepthTable& table, bool flats) noexcept
+                           const DepthTable& table, bool thin) noexcept
     : camera_(camera),
       axes_(axes),
       grid_(grid),
       table_(table),
       words_((table.count + 63) / 64),
-      flats_(flats) {}
+      with_thin_(thin) {}
 
 void VisiblePiece::find(const Boxes& boxes, std::int64_t first, std::int64_t rays) noexcept {
   first_ = first;
   end_ = first + rays;
   std::fill_n(bits_.begin(), rays * words_, std::uint64_t{0});
-  std::fill_n(flat_.begin(), rays, std::numeric_limits<double>::infinity());
+  std::fill_n(thin_.begin(), rays, std::numeric_limits<double>::infinity());
   MarkQuery query{*this};
   // In world space: what marks is the arithmetic of depths_in_box.
   const std::array<Plane, 6> sides =
@@ -110,13 +105,14 @@ bool VisiblePiece::footprint(const Box& box, Footprint& out) const noexcept {
   out.depth[0] = static_cast<int>(std::lower_bound(begin, end, depth.low) - begin);
   out.depth[1] = static_cast<int>(std::upper_bound(begin, end, depth.high) - begin) - 1;
   const bool between = out.depth[0] > out.depth[1];
-  if (between && !flats_) return false;
+  if (between && !with_thin_) return false;
   if (depth.high < camera_.near_depth || depth.low > camera_.far_depth) return false;
   Range x = along(centre, half, axes_.right), y = along(centre, half, axes_.up);
   if (!camera_.orthographic) {
-    // Only what lies at depths of the table counts, or in view where boxes are flat: those round the eye end,
+    // Only what lies at depths of the table counts, or in view where boxes are thin: those round the eye end,
     // too.
-    const double least = flats_ ? camera_.near_depth : table_.depth[static_cast<std::size_t>(out.depth[0])];
+    const double least =
+        with_thin_ ? camera_.near_depth : table_.depth[static_cast<std::size_t>(out.depth[0])];
     depth = {max_of(depth.low, least), depth.high};
     depth.high = max_of(depth.high, depth.low);
     x = over_depth(x, depth);
@@ -133,7 +129,6 @@ void VisiblePiece::mark(const Box& box) noexcept {
   Footprint where;
   if (!footprint(box, where)) return;
   const DepthInterval range{camera_.near_depth, camera_.far_depth};
-  const bool flat = flats_ && is_flat(box);
   for (int row = where.row[0]; row <= where.row[1]; ++row) {
     const std::int64_t of_row = std::int64_t{row} * grid_.columns;
     const auto column = static_cast<int>(std::max<std::int64_t>(where.column[0], first_ - of_row));
@@ -141,17 +136,17 @@ void VisiblePiece::mark(const Box& box) noexcept {
     for (int c = column; c <= last; ++c) {
       const PixelRay ray = pixel_ray(camera_, axes_, grid_, c, row);
       const DepthInterval inside = depths_in_box(box, ray.start, ray.step, range);
-      if (flat && inside.begin <= inside.end) {
-        double& nearest = flat_[static_cast<std::size_t>(of_row + c - first_)];
-        nearest = min_of(nearest, inside.begin);
-      }
-      mark(of_row + c, inside, where);
+      if (inside.begin > inside.end || mark(of_row + c, inside, where) || !with_thin_) continue;
+      // The table may hold a part of the depths.
+      if (grid_.depths > kTableDepths && !between_depths(camera_, grid_, inside)) continue;
+      double& nearest = thin_[static_cast<std::size_t>(of_row + c - first_)];
+      nearest = min_of(nearest, inside.begin);
     }
   }
 }
 
-void VisiblePiece::mark(std::int64_t ray, DepthInterval part, const Footprint& where) noexcept {
-  if (part.begin > part.end || where.depth[0] > where.depth[1]) return;
+bool VisiblePiece::mark(std::int64_t ray, DepthInterval part, const Footprint& where) noexcept {
+  if (where.depth[0] > where.depth[1]) return false;
   const auto begin = table_.depth.begin() + where.depth[0], end = table_.depth.begin() + where.depth[1] + 1;
   const auto low = static_cast<int>(std::lower_bound(begin, end, part.begin) - table_.depth.begin());
   const auto high = static_cast<int>(std::upper_bound(begin, end, part.end) - table_.depth.begin());
@@ -161,6 +156,7 @@ void VisiblePiece::mark(std::int64_t ray, DepthInterval part, const Footprint& w
     bits_[word(ray, at)] |= ones << (at % 64);
     at = stop;
   }
+  return low < high;
 }
 
 }  // namespace gnomon

@@ -1,10 +1,12 @@
 // The points at which errors are measured: a grid over the image, and along each pixel's ray depths inside
-// the receivers. Flat receivers have no inside: there it is where the ray meets the nearest of them.
+// the receivers. Between two depths lie flat receivers, and thin ones: there it is where the ray meets the
+// nearest of them.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <glm/vec3.hpp>
 
@@ -72,13 +74,24 @@ struct DepthTable {
   return table;
 }
 
+/// Whether no depth of the whole grid is in the interval, but for rounding.
+[[nodiscard]] inline bool between_depths(const Camera& camera, const MeasureOptions& grid,
+                                         DepthInterval part) noexcept {
+  const double n = camera.near_depth, f = camera.far_depth;
+  const auto place = [&](double depth) {
+    const double t = n > 0.0 ? elementary::log(depth / n) / elementary::log(f / n) : (depth - n) / (f - n);
+    return t * grid.depths - 0.5;
+  };
+  return std::ceil(place(part.begin)) > std::floor(place(part.end));
+}
+
 /// Which points of a piece of the grid, some rays one after the other along the rows, lie in a box: a bit
 /// each.
 class VisiblePiece {
  public:
-  /// `flats`: finds flat boxes as well, at any depth.
+  /// `thin`: finds boxes between two depths of the grid as well, at any depth.
   VisiblePiece(const Camera& camera, const CameraAxes& axes, const MeasureOptions& grid,
-               const DepthTable& table, bool flats) noexcept;
+               const DepthTable& table, bool thin) noexcept;
 
   /// Takes the rays from number `first` on, at most `rays` of them, and finds their points in these boxes.
   /// Draws each box where it appears in the image, so that time grows with what the boxes cover.
@@ -90,9 +103,9 @@ class VisiblePiece {
     return bits_[word(ray, 64 * at)];
   }
 
-  /// Depth of the nearest flat box on the ray; infinite: none.
-  [[nodiscard]] double flat(std::int64_t ray) const noexcept {
-    return flat_[static_cast<std::size_t>(ray - first_)];
+  /// Where the ray enters the nearest box that it passes between two depths; infinite: none.
+  [[nodiscard]] double thin(std::int64_t ray) const noexcept {
+    return thin_[static_cast<std::size_t>(ray - first_)];
   }
 
   void mark(const Box& box) noexcept;
@@ -102,24 +115,25 @@ class VisiblePiece {
   struct Footprint {
     int column[2], row[2], depth[2];
   };
-  /// False where no ray of the piece meets the box at any depth of the table, or of the view for flat boxes.
+  /// False where no ray of the piece meets the box at any depth of the table, or of the view with thin boxes.
   [[nodiscard]] bool footprint(const Box& box, Footprint& out) const noexcept;
 
-  static constexpr std::int64_t kWords = 384;  // 6 KiB with the flat boxes: the default grid in eleven pieces
+  static constexpr std::int64_t kWords = 384;  // 6 KiB with the thin boxes: the default grid in eleven pieces
   [[nodiscard]] std::size_t word(std::int64_t ray, int depth) const noexcept {
     return static_cast<std::size_t>((ray - first_) * words_ + depth / 64);
   }
-  void mark(std::int64_t ray, DepthInterval part, const Footprint& where) noexcept;
+  /// False where no depth of the table is in that part.
+  bool mark(std::int64_t ray, DepthInterval part, const Footprint& where) noexcept;
 
   const Camera& camera_;
   const CameraAxes& axes_;
   const MeasureOptions& grid_;
   const DepthTable& table_;
   int words_;
-  bool flats_;
+  bool with_thin_;
   std::int64_t first_ = 0, end_ = 0;
   std::array<std::uint64_t, kWords> bits_;
-  std::array<double, kWords> flat_;  // of each ray
+  std::array<double, kWords> thin_;  // of each ray
 };
 
 /// Calls sample(point, view depth) for each point of the grid that lies in a receiver. Needs a finite far
@@ -144,7 +158,7 @@ void for_each_visible(const Camera& camera, const CameraAxes& axes, const Boxes&
             sample(ray.start + ray.step * depth, depth);
           }
         }
-        if (const double depth = piece.flat(i); depth < camera.far_depth)
+        if (const double depth = piece.thin(i); depth < camera.far_depth)
           sample(ray.start + ray.step * depth, depth);
       }
     }

@@ -286,41 +286,43 @@ TEST(ManyBoxes, sets_of_nothing_and_of_empty_boxes_show_nothing) {
   }
 }
 
-/// Whether a ray meets a flat box in view.
-bool meets_flat(const Camera& camera, const glm::dvec3& start, const glm::dvec3& step,
-                const std::vector<Box>& boxes) {
-  return std::any_of(boxes.begin(), boxes.end(), [&](const Box& b) {
-    for (int flat = 0; flat < 3; ++flat) {
-      if (b.min[flat] != b.max[flat] || step[flat] == 0.0) continue;
-      const double depth = (b.min[flat] - start[flat]) / step[flat];
-      const glm::dvec3 p = start + step * depth;
-      bool inside = depth >= camera.near_depth && depth < camera.far_depth;
-      for (int axis = 0; axis < 3; ++axis)
-        inside = inside && (axis == flat || (p[axis] >= b.min[axis] && p[axis] <= b.max[axis]));
-      if (inside) return true;
-    }
-    return false;
-  });
+/// Whether a ray meets a box in view at none of these depths.
+bool passes_between(const std::vector<double>& depths, const Camera& camera, const glm::dvec3& start,
+                    const glm::dvec3& step, const Box& box) {
+  if (box.empty()) return false;
+  double begin = camera.near_depth, end = camera.far_depth;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = (box.min[axis] - start[axis]) / step[axis],
+                 high = (box.max[axis] - start[axis]) / step[axis];
+    begin = std::max(begin, std::min(low, high));
+    end = std::min(end, std::max(low, high));
+  }
+  return begin <= end && begin < camera.far_depth &&
+         std::none_of(depths.begin(), depths.end(), [&](double d) { return d >= begin && d <= end; });
 }
 
-/// Points of the grid in some box, one ray, depth and box after the other; and one for each ray that meets a
-/// flat box.
+/// Points of the grid in some box, one ray, depth and box after the other; and one for each ray that passes a
+/// box between two depths.
 std::uint64_t points_by_definition(const Camera& camera, const std::vector<Box>& boxes,
                                    const MeasureOptions& grid) {
   const CameraAxes axes = camera_axes(camera);
+  std::vector<double> depths;
+  for (int k = 0; k < grid.depths; ++k) {
+    const double t = (k + 0.5) / grid.depths, n = camera.near_depth, f = camera.far_depth;
+    depths.push_back(n > 0.0 ? n * std::pow(f / n, t) : n + (f - n) * t);
+  }
   std::uint64_t count = 0;
   for (int row = 0; row < grid.rows; ++row) {
     for (int column = 0; column < grid.columns; ++column) {
       const double x = camera.left + (camera.right - camera.left) * (column + 0.5) / grid.columns;
       const double y = camera.bottom + (camera.top - camera.bottom) * (row + 0.5) / grid.rows;
       const glm::dvec3 image = axes.right * x + axes.up * y;
-      count += camera.orthographic ? meets_flat(camera, camera.position + image, axes.forward, boxes)
-                                   : meets_flat(camera, camera.position, axes.forward + image, boxes);
-      for (int k = 0; k < grid.depths; ++k) {
-        const double t = (k + 0.5) / grid.depths, n = camera.near_depth, f = camera.far_depth;
-        const double depth = n > 0.0 ? n * std::pow(f / n, t) : n + (f - n) * t;
-        const glm::dvec3 p = camera.orthographic ? camera.position + image + axes.forward * depth
-                                                 : camera.position + (axes.forward + image) * depth;
+      const glm::dvec3 start = camera.orthographic ? camera.position + image : camera.position,
+                       step = camera.orthographic ? axes.forward : axes.forward + image;
+      count += std::any_of(boxes.begin(), boxes.end(),
+                           [&](const Box& b) { return passes_between(depths, camera, start, step, b); });
+      for (const double depth : depths) {
+        const glm::dvec3 p = start + step * depth;
         count += std::any_of(boxes.begin(), boxes.end(), [&](const Box& b) {
           return p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z &&
                  p.z <= b.max.z;

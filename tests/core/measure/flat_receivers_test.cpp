@@ -1,4 +1,5 @@
-// Do receivers without any thickness count where errors are measured, and where pages are planned?
+// Do receivers without any thickness, or with little, count where errors are measured, and where pages are
+// planned?
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -68,6 +69,31 @@ TEST(FlatReceivers, count_across_the_view_and_in_front_of_others) {
   EXPECT_EQ(measured({wall}, camera, deep).samples, 64u * 64u);
   EXPECT_EQ(measured({{{-50, -50, 10}, {50, 50, 10}}}, camera).samples, 0u) << "behind the eye";
   EXPECT_EQ(measured({{{-50, -50, -1000}, {50, 50, -1000}}}, camera).samples, 0u) << "beyond the far plane";
+}
+
+TEST(FlatReceivers, thin_ones_count_where_rays_enter_them) {
+  // The grid's depths are a tenth apart: a wall of two parts in a hundred is between two of them, or holds
+  // one.
+  const Camera camera = perspective_camera({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.0, 1.5, 0.1, 100.0, 640, 400);
+  for (double depth = 8.0; depth < 11.0; depth += 0.1) {
+    const Box wall{{-50, -50, -1.02 * depth}, {50, 50, -depth}};
+    EXPECT_EQ(measured({wall}, camera).samples, 64u * 64u) << depth;
+    MeasureOptions tables;
+    tables.depths = 300;
+    EXPECT_GE(measured({wall}, camera, tables).samples, 64u * 64u) << depth;
+  }
+  // The nearest corner of a slab has its error, but for half a pixel of the grid's.
+  const Camera over =
+      perspective_camera({0, 25, 0}, {0, -0.4, -1}, {0, 1, 0}, 1.0, 1.5, 0.05, 500.0, 640, 400);
+  const Box slab{{-300, -0.2, -300}, {300, 0, 300}};
+  const std::vector<Box> receivers = {slab};
+  const SceneBounds bounds{receivers, receivers};
+  const ShadowPlan plan = make_plan(over, kSun, bounds);
+  MeasureOptions fine;
+  fine.depths = 2000;
+  const AliasingStats coarse = measure(plan, over, bounds), exact = measure(plan, over, bounds, fine);
+  EXPECT_GT(coarse.samples, 3000u);
+  EXPECT_NEAR(coarse.max / exact.max, 1.0, 0.01);
 }
 
 TEST(FlatReceivers, change_nothing_of_what_has_room) {
