@@ -26,9 +26,14 @@ struct TexelJacobian {
   double ndc_x, ndc_y, w;
 };
 
+/// w of a point; another order of the sum may give 0 where this is not.
+[[nodiscard]] inline double w_at(const glm::dmat4& m, const glm::dvec3& p) noexcept {
+  return m[0][3] * p.x + m[1][3] * p.y + m[2][3] * p.z + m[3][3];
+}
+
 [[nodiscard]] inline TexelJacobian texel_jacobian(const glm::dmat4& m, const TexelGrid& grid,
                                                   const glm::dvec3& p) noexcept {
-  const double w = m[0][3] * p.x + m[1][3] * p.y + m[2][3] * p.z + m[3][3];
+  const double w = w_at(m, p);
   const double inverse = 1.0 / w;
   const double x = (m[0][0] * p.x + m[1][0] * p.y + m[2][0] * p.z + m[3][0]) * inverse;
   const double y = (m[0][1] * p.x + m[1][1] * p.y + m[2][1] * p.z + m[3][1]) * inverse;

@@ -8,6 +8,7 @@
 
 #include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/lanes.hpp"
 
 namespace gnomon {
 
@@ -57,12 +58,15 @@ bool map_holds(const ShadowPlan& plan, const ShadowMap& map, const glm::dvec3& p
   if (!(clip.z >= lowest * clip.w - deep && clip.z <= clip.w + deep) || std::abs(clip.x) > 2.0 * clip.w ||
       std::abs(clip.y) > 2.0 * clip.w)
     return false;
-  const glm::dvec2 ndc = glm::dvec2(clip) / clip.w;
+  // Compilers divide before they choose: w = 0 must be none here, and no quotient of coordinates too large.
+  constexpr double kLeastW = 1e-200;
+  const double w = divisor(clip.w, kLeastW);
+  const glm::dvec2 ndc = glm::dvec2(clip) / w;
   // A quarter texel of the border is left to rounding; no kernel tells it apart. More where a texel is less
   // than the rounding of positions.
   constexpr double kQuarter = 0.25;
   const auto border = [&](int axis, int side) {
-    const double off = (kRounding * sizes.row(m, axis) + std::abs(ndc[axis]) * off_w) / clip.w;
+    const double off = (kRounding * sizes.row(m, axis) + std::abs(ndc[axis]) * off_w) / w;
     return map.filter_margin_texels - max_of(kQuarter, 0.5 * off * side);
   };
   const glm::dvec2 texel = map.texels().place(ndc).texel;
@@ -79,7 +83,8 @@ int finest_map(const ShadowPlan& plan, const glm::dvec3& point) noexcept {
   double most = 0.0;
   for (int i = 0; i < plan.map_count; ++i) {
     const ShadowMap& map = plan.map[static_cast<std::size_t>(i)];
-    if (!map_holds(plan, map, point)) continue;
+    // Where w is rounding alone, map_holds() has another one.
+    if (!map_holds(plan, map, point) || !(w_at(map.clip_from_world, point) > 0.0)) continue;
     const TexelJacobian texel = texel_jacobian(map.clip_from_world, map.texels(), point);
     // Both gradients lie across the light's ray, so that this has its direction.
     const double density = glm::length(glm::cross(texel.x, texel.y));
