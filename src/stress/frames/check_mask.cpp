@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <limits>
 #include <map>
 #include <memory>
@@ -23,6 +24,28 @@ namespace {
 // Weights of up to a few hundred texels, added in float.
 constexpr float kWeights = 1e-4f;
 
+/// Surfaces in one plane, of which one receives shadows: rounding says which of them the picture shows.
+/// Points of pictures lie off their triangles by less than this, of their distance from the eye.
+void leave_out_ambiguous(const trace::Tracer& tracer, const std::vector<WorldTriangle>& triangles,
+                         const glm::dvec3& eye, trace::SurfacePoints& points) {
+  constexpr double kOffPlane = 1e-4;
+  for (trace::SurfacePoint& point : points.pixels) {
+    if (point.state != trace::PixelState::facing) continue;
+    const glm::dvec3 p = point.position - eye;
+    const glm::dvec3 off(kOffPlane * glm::length(p));
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      if (tracer.receives(t) == point.receives) continue;
+      const auto& [a, b, c] = triangles[t].corner;
+      const bool beside = glm::any(glm::lessThan(p, glm::min(a, glm::min(b, c)) - off)) ||
+                          glm::any(glm::greaterThan(p, glm::max(a, glm::max(b, c)) + off));
+      if (beside) continue;
+      const glm::dvec3 across = glm::cross(b - a, c - a);
+      if (std::abs(glm::dot(across, p - a)) <= off.x * glm::length(across))
+        point.state = trace::PixelState::undecided;
+    }
+  }
+}
+
 /// What a pixel is held against.
 struct Truth {
   trace::Tracer tracer;
@@ -34,8 +57,10 @@ struct Truth {
       : tracer(stage.opaque(), trace::Engine::own),
         points(trace::surface_points(tracer, stage.camera(), stage.setting().input.light,
                                      stage.keeping().positions(), stage.keeping().normals())),
-        hard(trace::hard_reference(tracer, points, stage.setting().input.light)),
-        triangles(world_triangles(stage.opaque(), stage.camera().position)) {}
+        triangles(world_triangles(stage.opaque(), stage.camera().position)) {
+    leave_out_ambiguous(tracer, triangles, stage.camera().position, points);
+    hard = trace::hard_reference(tracer, points, stage.setting().input.light);
+  }
 };
 
 std::string at(const FrameStage& stage, const Truth& truth, std::size_t pixel) {
