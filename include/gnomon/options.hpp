@@ -47,7 +47,7 @@ enum class Partition : std::uint8_t {
 // where that lowers the objective; else one map takes all (receiver_clusters: as many cascades, where they
 // are better), and the plan lists an omission. Fit::stable, whose grid must not follow the view, keeps
 // view_depth, and a PlanHistory does not steady the parts. Every other partition leaves a point light the
-// faces of a cube. Spot lights have one cone or a cube.
+// faces of a cube. Spot lights have one cone or a cube: under a texel_budget by the view (docs/lights.md).
 
 /// True for the partitions that divide what a directional light lights other than by view depth.
 [[nodiscard]] constexpr bool divides_parallel(Partition partition) noexcept {

@@ -140,17 +140,19 @@ TEST_F(Stack, make_plan_with_every_shape_split_and_objective) {
 }
 
 TEST_F(Stack, make_plan_with_rare_options) {
-  for (const Light& light : lights_) {
+  std::vector<Light> lights(lights_.begin(), lights_.end());
+  lights.push_back(SpotLight{{3, 8, 2}, {0.1, -1, 0.2}, 1.1, 40.0});  // of one map or several
+  for (const Light& light : lights) {
     for (const Partition partition : {Partition::view_depth, Partition::frustum_faces,
                                       Partition::separating_plane, Partition::receiver_clusters}) {
-      for (int rare = 0; rare < 8; ++rare) {
+      for (int rare = 0; rare < 9; ++rare) {
         PlanOptions options;
         options.split.partition = partition;
         options.split.face_slices = 4;
         options.warp.objective = rare % 2 == 0 ? Objective::picture : Objective::storage;
         if (rare == 1) options.split.pseudo_near = 3.0;
         if (rare == 2) options.resolution.max_error = 2.0;
-        if (rare == 3) options.resolution.texel_budget = 1 << 20;
+        if (rare == 3 || rare == 8) options.resolution.texel_budget = 1 << 20;
         if (rare == 4) options.filter.world = 0.2;
         if (rare == 5) options.split.selection = MapSelection::finest;
         if (rare == 6) options.prune = kPruneNothing;

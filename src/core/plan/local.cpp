@@ -17,19 +17,17 @@
 #include "map/size.hpp"
 #include "plan/budget.hpp"
 #include "plan/merge.hpp"
+#include "plan/spot_maps.hpp"
 
 namespace gnomon {
 namespace {
 
-// Half angle from which the five faces that a cone reaches need fewer texels than one map, about 66 degrees.
-// One map is tan(angle) times as wide as a face: the tangent is the root of five.
-constexpr double kWidestSingle = 1.1502619915109316;
-// The same for texels that are even in angle, 85 degrees: at 90 the image plane is at infinity.
-constexpr double kWidestRound = 1.4835298641951802;
 // Half angle below which a cone leaves the face behind it dark: 180 degrees less the face's corner, at slope
 // sqrt(2), less the faces' overlap.
 constexpr double kLeavesBackDark = 2.184;
 constexpr int kCubeFaces = 6;
+// A spot has other maps than its angle's where the error of those is larger by this factor.
+constexpr double kLeastGain = 1.02;
 // Neighbouring faces share this much, as a slope: rounding in a shader must not open a seam.
 constexpr double kFaceOverlap = 1.0 / 512.0;
 // Slope of the narrowest cone: narrower ones get a map this wide.
@@ -342,15 +340,15 @@ void plan_tetrahedron(const LocalScene& scene, ShadowPlan& plan) noexcept {
 
 /// Replaces the plan's maps.
 [[gnu::noinline]] void plan_frusta(const LocalScene& scene, const Light& light, const Resolved& resolved,
-                                   ShadowPlan& plan) noexcept {
+                                   LocalMaps maps, ShadowPlan& plan) noexcept {
   plan.map_count = plan.omission_count = 0;
   omit(plan, resolved.of_maps);
   const auto* spot = std::get_if<SpotLight>(&light);
-  if (resolved.tetrahedron) {
+  if (maps == LocalMaps::tetrahedron) {
     plan_tetrahedron(scene, plan);
   } else if (spot == nullptr) {
     plan_cube(scene, {{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}, nullptr, plan);
-  } else if (!shown_by_faces(*spot, scene.c.options)) {
+  } else if (maps == LocalMaps::cone) {
     plan_cone(scene, plan.light_direction, spot->outer_radians, plan);
   } else {
     const Cone cone{plan.light_direction, spot->outer_radians};
@@ -358,25 +356,52 @@ void plan_tetrahedron(const LocalScene& scene, ShadowPlan& plan) noexcept {
   }
 }
 
-/// A trial that leaves nothing to remember tells the sizes.
+/// A trial that leaves nothing to remember tells the sizes; `plan` keeps its maps.
 [[gnu::noinline]] MapSizes sizes_within_budget(const LocalScene& scene, const Light& light,
-                                               const Resolved& resolved, ShadowPlan& plan) noexcept {
+                                               const Resolved& resolved, LocalMaps maps,
+                                               ShadowPlan& plan) noexcept {
   PlanContext trial = scene.c;
   trial.how.forget();
   const LocalScene equal{trial,       scene.warp, scene.apex,  scene.apex_world,
                          scene.range, scene.lit,  scene.sizes, nullptr};
-  plan_frusta(equal, light, resolved, plan);
-  const int faces = resolved.tetrahedron ? static_cast<int>(kTetrahedron.size()) : kCubeFaces;
+  plan_frusta(equal, light, resolved, maps, plan);
+  const int faces = maps == LocalMaps::tetrahedron ? static_cast<int>(kTetrahedron.size()) : kCubeFaces;
   return TexelDemands(scene.c, plan, true).within_budget(faces);
 }
 
-}  // namespace
-
-bool shown_by_faces(const SpotLight& spot, const PlanOptions& options) noexcept {
-  const Shape* shape = options.warp.shape;
-  const bool round = shape != nullptr && shape->round != nullptr;
-  return !(spot.outer_radians < (round ? kWidestRound : kWidestSingle));
+/// The error of these maps as large as the scene's sizes are; `plan` keeps them.
+[[gnu::noinline]] double drawn_error(const LocalScene& scene, const Light& light, const SpotLight& spot,
+                                     const Resolved& resolved, LocalMaps maps, ShadowPlan& plan) noexcept {
+  plan_frusta(scene, light, resolved, maps, plan);
+  return seen_error(scene.c, spot, plan, scene.sizes);
 }
+
+/// Sizes within the budget for `maps` or, where their error is smaller, for a spot's other ones, which `maps`
+/// is set to.
+[[gnu::noinline]] void choose_maps(LocalScene& scene, const Light& light, const Resolved& resolved,
+                                   LocalMaps& maps, ShadowPlan& plan) noexcept {
+  const MapSizes sizes = sizes_within_budget(scene, light, resolved, maps, plan);
+  const auto* spot = std::get_if<SpotLight>(&light);
+  if (spot == nullptr || !weighs_both(scene.c, *spot, resolved)) {
+    scene.sizes = sizes;
+    return;
+  }
+  const double error = seen_error(scene.c, *spot, plan, sizes);
+  const LocalMaps other = maps == LocalMaps::cone ? LocalMaps::cube : LocalMaps::cone;
+  const MapSizes other_sizes = sizes_within_budget(scene, light, resolved, other, plan);
+  scene.sizes = sizes;
+  if (!(seen_error(scene.c, *spot, plan, other_sizes) < error)) return;
+  // A map of few texels may be worse than a large one tells: its border is wide.
+  const double drawn = drawn_error(scene, light, *spot, resolved, maps, plan);
+  scene.sizes = other_sizes;
+  if (drawn_error(scene, light, *spot, resolved, other, plan) * kLeastGain < drawn) {
+    maps = other;
+  } else {
+    scene.sizes = sizes;
+  }
+}
+
+}  // namespace
 
 void plan_local(const PlanContext& c, const Light& light, const Resolved& resolved, PlanHistory* history,
                 ShadowPlan& plan) noexcept {
@@ -407,8 +432,9 @@ void plan_local(const PlanContext& c, const Light& light, const Resolved& resolv
     plan.status = PlanStatus::nothing_visible;
     return;
   }
-  if (options.resolution.texel_budget > 0) scene.sizes = sizes_within_budget(scene, light, resolved, plan);
-  plan_frusta(scene, light, resolved, plan);
+  LocalMaps maps = maps_by_angle(light, resolved);
+  if (options.resolution.texel_budget > 0) choose_maps(scene, light, resolved, maps, plan);
+  plan_frusta(scene, light, resolved, maps, plan);
 }
 
 }  // namespace gnomon
