@@ -46,9 +46,9 @@ VisibleDepths CoarseView::depths(const Scene& scene, const Camera& camera, std::
   candidates_.clear();
   for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
     const Box& box = scene.instances[i].bounds_world;
-    if (box.empty() || std::any_of(planes.begin(), planes.end(), [&](const glm::dvec4& plane) {
-          return wholly_outside(box, camera.position, plane);
-        }))
+    if (!scene.instances[i].shown || box.empty() ||
+        std::any_of(planes.begin(), planes.end(),
+                    [&](const glm::dvec4& plane) { return wholly_outside(box, camera.position, plane); }))
       continue;
     const double distance = glm::length(camera.position - glm::clamp(camera.position, box.min, box.max));
     candidates_.push_back({glm::length(box.max - box.min) / std::max(distance, camera.near_depth), i});

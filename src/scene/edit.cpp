@@ -125,7 +125,8 @@ void cut_by_one(const SectionPlane& plane, Scene& scene) {
   }
   scene.instances = std::move(kept);
   scene.bounds_world = {};
-  for (const Instance& instance : scene.instances) scene.bounds_world.extend(instance.bounds_world);
+  for (const Instance& instance : scene.instances)
+    if (instance.shown) scene.bounds_world.extend(instance.bounds_world);
 }
 
 }  // namespace
@@ -204,7 +205,9 @@ void cut_by(std::span<const SectionPlane> planes, Scene& scene) {
   scene.warnings.emplace_back("scene: a section is of the scene at rest, its animations are not played");
 }
 
-void edit(const SceneEdits& edits, Scene& scene) {
+void edit(const SceneEdits& edits, Scene& scene, const LoadLimits& limits) {
+  if (!edits.proxies.empty())
+    cast_by_proxies(load_scene(edits.proxies, limits), edits.proxies, limits, scene);
   cut_by(edits.sections, scene);
   if (edits.ground) add_ground(scene);
 }

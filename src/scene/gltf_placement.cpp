@@ -5,7 +5,10 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "gltf_accessor.hpp"
 #include "gltf_check.hpp"
@@ -57,6 +60,15 @@ void take_flag(const json& owner, const char* name, const std::string& where, bo
     warn(warnings, where + ".extras." + name, "is not true or false, and does not count");
 }
 
+std::optional<std::size_t> mesh_of(const json& source, const json& node) {
+  const auto meshes = source.find("meshes");
+  const auto mesh = node.is_object() ? node.find("mesh") : node.end();
+  if (mesh == node.end() || !mesh->is_number_unsigned() || meshes == source.end() || !meshes->is_array() ||
+      mesh->get<std::uint64_t>() >= meshes->size())
+    return std::nullopt;
+  return mesh->get<std::size_t>();
+}
+
 PlacementSource::Shadows shadows_of(const json& source, const json& node, const std::string& where,
                                     std::vector<std::string>& warnings) {
   PlacementSource::Shadows shadows;
@@ -64,15 +76,67 @@ PlacementSource::Shadows shadows_of(const json& source, const json& node, const 
     take_flag(owner, "castShadow", of, shadows.casts, warnings);
     take_flag(owner, "receiveShadow", of, shadows.receives, warnings);
   };
-  const auto meshes = source.find("meshes");
-  const auto mesh = node.is_object() ? node.find("mesh") : node.end();
-  if (mesh != node.end() && mesh->is_number_unsigned() && meshes != source.end() && meshes->is_array() &&
-      mesh->get<std::uint64_t>() < meshes->size()) {
-    const auto index = mesh->get<std::size_t>();
-    take((*meshes)[index], element("meshes", index));
-  }
+  if (const auto mesh = mesh_of(source, node)) take(source["meshes"][*mesh], element("meshes", *mesh));
   take(node, where);
   return shadows;
+}
+
+/// What says that the node has a shadow proxy: its own extras, else those of its mesh.
+struct ProxyName {
+  const json* value = nullptr;  ///< nullptr: there is none
+  std::string where;
+};
+ProxyName proxy_name(const json& source, const json& node, std::size_t n) {
+  const auto value_in = [](const json& owner) -> const json* {
+    const json* extras = find_object(owner, "extras");
+    return extras == nullptr || !extras->contains("shadowProxy") ? nullptr : &extras->at("shadowProxy");
+  };
+  if (const json* value = value_in(node)) return {value, element("nodes", n) + ".extras.shadowProxy"};
+  const auto mesh = mesh_of(source, node);
+  if (!mesh) return {};
+  return {value_in(source["meshes"][*mesh]), element("meshes", *mesh) + ".extras.shadowProxy"};
+}
+
+using NodesByName = std::multimap<std::string, std::size_t>;
+
+NodesByName nodes_by_name(const json& nodes) {
+  NodesByName by_name;
+  for (std::size_t n = 0; n < nodes.size(); ++n) {
+    const auto name = nodes[n].is_object() ? nodes[n].find("name") : nodes[n].end();
+    if (name != nodes[n].end() && name->is_string()) by_name.emplace(name->get<std::string>(), n);
+  }
+  return by_name;
+}
+
+/// The node of that name. Throws LeftOut where its mesh cannot be a proxy.
+int proxy_called(const json& source, const NodesByName& by_name, const json& name) {
+  if (!name.is_string()) throw LeftOut("is no name of a node");
+  const auto [first, last] = by_name.equal_range(name.get_ref<const std::string&>());
+  const std::string shown = "'" + one_line(name.get_ref<const std::string&>()) + "'";
+  if (first == last) throw LeftOut("no node is called " + shown);
+  const std::size_t n = first->second;
+  const std::string where = element("nodes", n);
+  if (std::next(first) != last)
+    throw LeftOut(where + " and " + element("nodes", std::next(first)->second) + " are both called " + shown);
+  const json& node = source["nodes"][n];
+  if (!mesh_of(source, node)) throw LeftOut(where + " has no mesh");
+  if (node.contains("skin")) throw LeftOut(where + " has a skin");
+  if (proxy_name(source, node, n).value != nullptr) throw LeftOut(where + " has a shadow proxy itself");
+  return static_cast<int>(n);
+}
+
+int proxy_of(const json& source, const NodesByName& by_name, std::size_t n,
+             std::vector<std::string>& warnings) {
+  const json& node = source["nodes"][n];
+  const ProxyName name = proxy_name(source, node, n);
+  if (name.value == nullptr) return -1;
+  try {
+    if (!mesh_of(source, node)) throw LeftOut("the node has no mesh");
+    return proxy_called(source, by_name, *name.value);
+  } catch (const LeftOut& e) {
+    warn(warnings, name.where, std::string(e.what()) + ", and does not count");
+    return -1;
+  }
 }
 
 }  // namespace
@@ -81,11 +145,14 @@ PlacementSource read_placement_source(const json& source, std::vector<std::strin
   PlacementSource out;
   const auto nodes = source.find("nodes");
   if (nodes == source.end() || !nodes->is_array()) return out;
+  const NodesByName by_name = nodes_by_name(*nodes);
   for (std::size_t n = 0; n < nodes->size(); ++n) {
     const std::string where = element("nodes", n);
     out.hidden.push_back(is_hidden((*nodes)[n], where, warnings));
     out.places.push_back(places_in(source, (*nodes)[n], where, warnings));
     out.shadows.push_back(shadows_of(source, (*nodes)[n], where, warnings));
+    out.proxies.push_back(proxy_of(source, by_name, n, warnings));
+    if (out.proxies.back() >= 0) out.proxy_nodes.insert(out.proxies.back());
   }
   return out;
 }

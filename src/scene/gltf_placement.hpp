@@ -3,6 +3,7 @@
 
 #include <glm/mat4x4.hpp>
 #include <nlohmann/json_fwd.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,11 @@ struct PlacementSource {
     bool casts = true, receives = true;
   };
   std::vector<Shadows> shadows;
+  /// The node whose mesh casts in its place, by `extras.shadowProxy`; -1: none.
+  std::vector<int> proxies;
+  /// Is shown nowhere, as its mesh casts for others.
+  [[nodiscard]] bool is_proxy(int node) const { return proxy_nodes.contains(node); }
+  std::set<int> proxy_nodes;
 };
 
 /// A broken extension is warned of, and counts as none.

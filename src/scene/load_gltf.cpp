@@ -15,6 +15,7 @@
 #include "gnomon/scene/load.hpp"
 #include "load_memory.hpp"
 #include "refusal.hpp"
+#include "shadow_proxy.hpp"
 
 namespace gnomon {
 
@@ -26,7 +27,7 @@ using detail::Refusal;
 class Placer {
  public:
   Placer(const detail::Document& document, const LoadLimits& limits, Scene& scene)
-      : shadows_(document.placement.shadows), limits_(limits), scene_(scene) {}
+      : document_(document), limits_(limits), scene_(scene) {}
 
   std::uint32_t place(std::uint32_t primitive, const glm::dmat4& world_from_object, std::size_t node) {
     triangles_ += scene_.primitives[primitive].index_count / 3;
@@ -46,17 +47,29 @@ class Placer {
         detail::transformed_bounds(scene_, scene_.primitives[primitive], world_from_object);
     if (!detail::is_finite(instance.bounds_world))
       throw Refusal(element("nodes", node), "its vertices are not finite");
-    if (node < shadows_.size()) {
-      instance.casts = shadows_[node].casts;
-      instance.receives = shadows_[node].receives;
+    const std::vector<detail::PlacementSource::Shadows>& shadows = document_.placement.shadows;
+    if (node < shadows.size()) {
+      instance.casts = shadows[node].casts;
+      instance.receives = shadows[node].receives;
     }
+    instance.node = named(node);
     scene_.bounds_world.extend(instance.bounds_world);
     scene_.instances.push_back(instance);
     return static_cast<std::uint32_t>(scene_.instances.size() - 1);
   }
 
  private:
-  const std::vector<detail::PlacementSource::Shadows>& shadows_;
+  /// Index into Scene::nodes. All instances of a node are placed before those of the next.
+  std::uint32_t named(std::size_t node) {
+    if (scene_.nodes.empty() || scene_.nodes.back().index != node) {
+      const tinygltf::Node& of = document_.model.nodes[node];
+      scene_.nodes.push_back({static_cast<std::uint32_t>(node), of.name,
+                              document_.model.meshes[static_cast<std::size_t>(of.mesh)].name, of.skin >= 0});
+    }
+    return static_cast<std::uint32_t>(scene_.nodes.size() - 1);
+  }
+
+  const detail::Document& document_;
   const LoadLimits& limits_;
   Scene& scene_;
   std::uint64_t triangles_ = 0;
@@ -87,7 +100,7 @@ void check_size(const detail::Document& document, const detail::NodeTree& tree, 
   std::vector<bool> seen(of_mesh.size(), false);
   for (const int n : tree.shown) {
     const tinygltf::Node& node = document.model.nodes[static_cast<std::size_t>(n)];
-    if (node.mesh < 0) continue;
+    if (node.mesh < 0 || document.placement.is_proxy(n)) continue;
     const auto m = static_cast<std::size_t>(node.mesh);
     const std::uint64_t places =
         place_count(document.model, document.placement.places[static_cast<std::size_t>(n)]);
@@ -124,7 +137,7 @@ class NodePlacer {
   void place(int n) {
     const auto index = static_cast<std::size_t>(n);
     const tinygltf::Node& node = document_.model.nodes[index];
-    if (node.mesh < 0) return;
+    if (node.mesh < 0 || document_.placement.is_proxy(n)) return;
     if (node.skin >= 0) {
       if (const auto bent = meshes_.skinned_primitives_of(n)) {
         for (const std::uint32_t primitive : *bent)
@@ -143,6 +156,27 @@ class NodePlacer {
     for (const std::uint32_t primitive : primitives_at_rest(n)) {
       const std::uint32_t instance = placer_.place(primitive, at, index);
       if (moved >= 0) scene_.motion.instances.push_back({instance, static_cast<std::uint32_t>(moved)});
+    }
+  }
+
+  /// The meshes that cast in place of those that are placed.
+  void place_proxies() {
+    if (document_.placement.proxy_nodes.empty()) return;
+    const std::vector<std::string> why_not = detail::why_no_proxies(scene_);
+    detail::ProxyPlacer placer(scene_, limits_);
+    for (std::uint32_t n = 0; n < why_not.size(); ++n) {
+      const std::uint32_t node = scene_.nodes[n].index;
+      const int proxy = document_.placement.proxies[node];
+      if (proxy < 0) continue;
+      const auto& primitives =
+          meshes_.primitives_of(document_.model.nodes[static_cast<std::size_t>(proxy)].mesh);
+      std::string why = why_not[n];
+      if (why.empty() && primitives.empty())
+        why = element("nodes", static_cast<std::size_t>(proxy)) + " has no triangles";
+      if (why.empty())
+        placer.place(n, primitives);
+      else
+        detail::warn(scene_.warnings, element("nodes", node), why + ", its shadow proxy does not count");
     }
   }
 
@@ -211,6 +245,7 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     check_size(document, tree, limits);
     NodePlacer placer(document, tree, limits, scene);
     for (const int node : tree.shown) placer.place(node);
+    placer.place_proxies();
     place_views(document.views, tree, scene);
     read_materials(document, files, limits, scene);
     if (files_hash != nullptr) *files_hash = fnv_of(bytes, files.hash());

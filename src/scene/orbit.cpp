@@ -235,7 +235,7 @@ CameraPath orbit(const Scene& scene, double aspect) {
   // Grounds and skies are seen as well, and lie nearer and farther.
   std::vector<Box> boxes;
   for (const Instance& instance : scene.instances)
-    if (!instance.bounds_world.empty()) boxes.push_back(instance.bounds_world);
+    if (instance.shown && !instance.bounds_world.empty()) boxes.push_back(instance.bounds_world);
   for (const CameraKey& key : path.keys) {
     const Sight sight = sight_from(key.position, boxes);
     if (!inside) path.near_depth = std::min(path.near_depth, sight.near_depth);

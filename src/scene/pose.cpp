@@ -227,7 +227,8 @@ void apply_pose(const Pose& pose, Scene& scene) {
   }
   if (pose.instances.empty()) return;
   scene.bounds_world = {};
-  for (const Instance& instance : scene.instances) scene.bounds_world.extend(instance.bounds_world);
+  for (const Instance& instance : scene.instances)
+    if (instance.shown) scene.bounds_world.extend(instance.bounds_world);
 }
 
 }  // namespace gnomon

@@ -310,7 +310,8 @@ ViewSubject view_subject(const Scene& scene) {
   std::vector<Piece> all, levels;
   bool stray = false;
   for (const Instance& instance : scene.instances)
-    if (!instance.bounds_world.empty()) stray = add_pieces(scene, instance, stride, all) || stray;
+    if (instance.shown && !instance.bounds_world.empty())
+      stray = add_pieces(scene, instance, stride, all) || stray;
   for (Piece& piece : all) (is_level(piece) ? levels : subject.pieces).push_back(std::move(piece));
   const std::size_t standing = subject.pieces.size();
   if (standing > 0 && extent_of(box_of(subject.pieces)) > 0.0) {

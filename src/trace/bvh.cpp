@@ -217,10 +217,12 @@ Hit Bvh::filled(std::uint32_t triangle, double t) const noexcept {
   return {triangle, t, size > 0.0 ? area / size : glm::dvec3(0.0)};
 }
 
-Hit Bvh::first_hit(const Ray& ray) const noexcept {
+template <class Counts>
+Hit Bvh::first_of(const Ray& ray, Counts&& counts) const noexcept {
   std::uint32_t best = kNoTriangle;
   double end = ray.end;
   walk(ray, end, [&](std::uint32_t triangle, double t, double, double) {
+    if (!counts(triangle)) return false;
     best = triangle;
     end = t;
     return false;
@@ -228,18 +230,20 @@ Hit Bvh::first_hit(const Ray& ray) const noexcept {
   return best == kNoTriangle ? Hit{} : filled(best, end);
 }
 
+Hit Bvh::first_hit(const Ray& ray) const noexcept {
+  return first_of(ray, [&](std::uint32_t triangle) { return triangles_.shown[triangle]; });
+}
+
+Hit Bvh::first_caster(const Ray& ray) const noexcept {
+  return first_of(ray, [&](std::uint32_t triangle) { return triangles_.casts[triangle]; });
+}
+
 Hit Bvh::first_seen(const Ray& ray) const noexcept {
-  std::uint32_t best = kNoTriangle;
-  double end = ray.end;
-  walk(ray, end, [&](std::uint32_t triangle, double t, double, double) {
+  return first_of(ray, [&](std::uint32_t triangle) {
     const WorldTriangles::Corners& c = triangles_.corners[triangle];
     const double away = glm::dot(glm::cross(c[1] - c[0], c[2] - c[0]), ray.direction);
-    if (triangles_.shown_side[triangle] * away > 0.0) return false;
-    best = triangle;
-    end = t;
-    return false;
+    return triangles_.shown[triangle] && triangles_.shown_side[triangle] * away <= 0.0;
   });
-  return best == kNoTriangle ? Hit{} : filled(best, end);
 }
 
 void Bvh::each_hit(const Ray& ray, const std::function<void(std::uint32_t, double, double)>& meet) const {
@@ -254,6 +258,7 @@ Hit Bvh::hit_nearest_to(const Ray& ray, double t) const noexcept {
   std::uint32_t best = kNoTriangle;
   double end = ray.end, at = 0.0;
   walk(ray, end, [&](std::uint32_t triangle, double found, double, double) {
+    if (!triangles_.shown[triangle]) return false;
     if (best == kNoTriangle || std::abs(found - t) < std::abs(at - t)) {
       best = triangle;
       at = found;

@@ -19,6 +19,7 @@ class Bvh {
 
   [[nodiscard]] bool occluded(const Ray& ray) const noexcept;
   [[nodiscard]] Hit first_hit(const Ray& ray) const noexcept;
+  [[nodiscard]] Hit first_caster(const Ray& ray) const noexcept;
   [[nodiscard]] Hit first_seen(const Ray& ray) const noexcept;
   [[nodiscard]] Hit hit_nearest_to(const Ray& ray, double t) const noexcept;
   /// Calls meet(triangle, b1, b2) for every triangle on the ray, in no order; b1 and b2 weigh its second and
@@ -37,6 +38,9 @@ class Bvh {
   /// lowered in between. Stops where accept answers true.
   template <class Accept>
   void walk(const Ray& ray, double& end, Accept&& accept) const noexcept;
+  /// The nearest hit of a triangle that counts.
+  template <class Counts>
+  [[nodiscard]] Hit first_of(const Ray& ray, Counts&& counts) const noexcept;
   [[nodiscard]] Hit filled(std::uint32_t triangle, double t) const noexcept;
 
   const WorldTriangles& triangles_;

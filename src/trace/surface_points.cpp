@@ -56,6 +56,18 @@ SurfacePoint located(const Tracer& tracer, const Camera& camera, const Light& li
 
 }  // namespace
 
+Ray eye_ray(const Camera& camera, const CameraAxes& axes, double column_share, double row_share) noexcept {
+  const double x = camera.left + (camera.right - camera.left) * column_share,
+               y = camera.top + (camera.bottom - camera.top) * row_share;
+  const glm::dvec3 image = axes.right * x + axes.up * y;
+  Ray ray;
+  ray.origin = camera.orthographic ? camera.position + image : camera.position;
+  ray.direction = camera.orthographic ? axes.forward : axes.forward + image;
+  ray.begin = camera.near_depth;
+  ray.end = camera.far_depth;
+  return ray;
+}
+
 SurfacePoints surface_points(const Tracer& tracer, const Camera& camera, const Light& light,
                              const FloatImage& positions, const FloatImage& normals) {
   SurfacePoints points{positions.width, positions.height, {}};

@@ -11,22 +11,6 @@
 
 namespace gnomon::trace {
 
-/// From the eye through a place in the picture, shares of its width from the left and of its height from the
-/// top, between the camera's near and far depth.
-[[nodiscard]] inline Ray eye_ray(const Camera& camera, const CameraAxes& axes, double column_share,
-                                 double row_share) noexcept {
-  const double x = camera.left + (camera.right - camera.left) * column_share,
-               y = camera.top + (camera.bottom - camera.top) * row_share;
-  const glm::dvec3 image = axes.right * x + axes.up * y;
-  // Per unit of view depth, so that t is the depth.
-  Ray ray;
-  ray.origin = camera.orthographic ? camera.position + image : camera.position;
-  ray.direction = camera.orthographic ? axes.forward : axes.forward + image;
-  ray.begin = camera.near_depth;
-  ray.end = camera.far_depth;
-  return ray;
-}
-
 /// The surface that a ray from the eye shows; sky where there is none.
 [[nodiscard]] inline SurfacePoint met_by(const Tracer& tracer, const Ray& ray, const Light& light) noexcept {
   SurfacePoint point;

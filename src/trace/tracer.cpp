@@ -73,6 +73,10 @@ Hit Tracer::first_hit(const Ray& ray) const noexcept {
   return impl_->bvh.first_hit(ray);
 }
 
+Hit Tracer::first_caster(const Ray& ray) const noexcept {
+  return impl_->bvh.first_caster(ray);
+}
+
 Hit Tracer::first_seen(const Ray& ray) const noexcept {
   return impl_->bvh.first_seen(ray);
 }

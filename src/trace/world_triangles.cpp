@@ -77,6 +77,7 @@ WorldTriangles::WorldTriangles(const Scene& scene) {
         instance_of.push_back(static_cast<std::uint32_t>(&instance - scene.instances.data()));
         casts.push_back(instance.casts);
         receives.push_back(instance.receives);
+        shown.push_back(instance.shown);
         std::array<glm::vec2, 3> uv;
         Corners& placed = corners.emplace_back();
         for (std::uint32_t k = 0; k < 3; ++k) {

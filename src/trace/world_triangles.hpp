@@ -32,7 +32,7 @@ struct WorldTriangles {
   /// Which side of each triangle a picture shows: 1 the one that its corners turn around counter-clockwise,
   /// -1 the other, 0 both. Light is stopped by either.
   std::vector<std::int8_t> shown_side;
-  std::vector<bool> casts, receives;                ///< as the instances
+  std::vector<bool> casts, receives, shown;         ///< as the instances
   std::vector<std::uint32_t> instance_of;           ///< index into Scene::instances
   std::vector<std::array<glm::vec2, 3>> texcoords;  ///< of masked triangles, from `opaque` on
   std::vector<std::uint32_t> cutout_of;             ///< the same

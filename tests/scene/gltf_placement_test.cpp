@@ -2,7 +2,12 @@
 // is?
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "animated_gltf.hpp"
 #include "gltf_text.hpp"
+#include "gnomon/scene/edit.hpp"
+#include "gnomon/scene/pose.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -244,6 +249,189 @@ TEST(GltfPlacement, extras_of_another_kind_are_a_warning_and_do_not_count) {
   }
   // Extras may be anything.
   EXPECT_TRUE(shown_twice(3, "text").load().warnings.empty());
+}
+
+// Shadow proxies.
+
+/// A statue of two triangles at (5, 0, 0), a simple mesh of one triangle far off, and an animation that moves
+/// the statue.
+TestGltf statue() {
+  TestGltf gltf;
+  const int corners = gltf.positions({0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0});
+  const int indices =
+      gltf.accessor(gltf.view(std::vector<std::uint16_t>{0, 1, 2, 2, 1, 3}), kUnsignedShort, "SCALAR", 6);
+  gltf.show({{"attributes", {{"POSITION", corners}}}, {"indices", indices}},
+            {{"name", "statue"}, {"translation", {5, 0, 0}}, {"extras", {{"shadowProxy", "simple"}}}});
+  gltf.show({{"attributes", {{"POSITION", gltf.positions(kTriangle)}}}},
+            {{"name", "simple"}, {"translation", {0, 900, 0}}});
+  add_keys(gltf, 0, "translation", {0, 1}, {5, 0, 0, 7, 0, 0});
+  return gltf;
+}
+
+TEST(ShadowProxy, casts_where_its_original_stands_and_is_neither_seen_nor_shadowed) {
+  const Scene scene = statue().load();
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+  ASSERT_EQ(scene.instances.size(), 2u) << "the proxy's own node shows nothing";
+  const Instance &original = scene.instances[0], &proxy = scene.instances[1];
+  EXPECT_FALSE(original.casts);
+  EXPECT_TRUE(original.receives && original.shown && original.has_proxy);
+  EXPECT_TRUE(proxy.casts);
+  EXPECT_FALSE(proxy.receives || proxy.shown || proxy.has_proxy);
+  EXPECT_EQ(proxy.world_from_object, original.world_from_object);
+  EXPECT_EQ(proxy.bounds_world, (Box{{5, 0, 0}, {6, 1, 0}}));
+  EXPECT_EQ(scene.bounds_world, original.bounds_world);
+  EXPECT_EQ(scene.primitives[proxy.primitive].index_count, 3u);
+  EXPECT_EQ(scene.nodes.at(original.node).name, "statue");
+  const CastTriangles triangles = cast_triangles(scene);
+  EXPECT_EQ(triangles.by_proxies, 1u);
+  EXPECT_EQ(triangles.without, 2u);
+}
+
+TEST(ShadowProxy, follows_the_animation_of_its_original) {
+  Scene scene = statue().load();
+  Pose at_end;
+  ASSERT_TRUE(pose(scene, 0, 1.0, at_end));
+  apply_pose(at_end, scene);
+  ASSERT_EQ(at_end.instances.size(), 2u);
+  EXPECT_EQ(scene.instances[1].bounds_world, (Box{{7, 0, 0}, {8, 1, 0}}));
+  EXPECT_EQ(scene.bounds_world, scene.instances[0].bounds_world);
+}
+
+TEST(ShadowProxy, of_a_mesh_is_that_of_its_nodes_and_stands_in_each_of_their_places) {
+  TestGltf gltf = statue();
+  gltf.document["meshes"][0]["extras"] = gltf.document["nodes"][0]["extras"];
+  gltf.document["nodes"][0].erase("extras");
+  gltf.document.erase("animations");
+  gltf.document["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] =
+      gltf.positions({0, 0, 0, 0, 0, 3});
+  const Scene scene = gltf.load();
+  EXPECT_TRUE(scene.warnings.empty()) << scene.warnings.front();
+  ASSERT_EQ(scene.instances.size(), 4u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_FALSE(scene.instances[i].casts);
+    EXPECT_EQ(scene.instances[i + 2].world_from_object, scene.instances[i].world_from_object);
+    EXPECT_TRUE(scene.instances[i + 2].casts);
+  }
+  LoadLimits few;
+  few.nodes = 3;
+  EXPECT_NE(refusal_of(gltf, few).find("shadow proxies: take the scene above 3 instances"), std::string::npos)
+      << refusal_of(gltf, few);
+  few = {};
+  few.triangles = 5;
+  EXPECT_NE(refusal_of(gltf, few).find("shadow proxies: take the scene above 5 triangles"), std::string::npos)
+      << refusal_of(gltf, few);
+}
+
+TEST(ShadowProxy, that_cannot_be_one_is_named_by_its_place_and_the_original_casts) {
+  struct Case {
+    const char* what;
+    void (*change)(TestGltf& gltf);
+    const char* says;
+  };
+  const Case cases[] = {
+      {"no text", [](TestGltf& g) { g.document["nodes"][0]["extras"]["shadowProxy"] = 1; },
+       "nodes[0].extras.shadowProxy: is no name of a node"},
+      {"missing", [](TestGltf& g) { g.document["nodes"][0]["extras"]["shadowProxy"] = "simpel"; },
+       "nodes[0].extras.shadowProxy: no node is called 'simpel'"},
+      {"ambiguous",
+       [](TestGltf& g) {
+         g.add("nodes", {{"name", "simple"}});
+       },
+       "nodes[0].extras.shadowProxy: nodes[1] and nodes[2] are both called 'simple'"},
+      {"itself", [](TestGltf& g) { g.document["nodes"][0]["extras"]["shadowProxy"] = "statue"; },
+       "nodes[0].extras.shadowProxy: nodes[0] has a shadow proxy itself"},
+      {"cycle", [](TestGltf& g) { g.document["nodes"][1]["extras"]["shadowProxy"] = "statue"; },
+       "nodes[0].extras.shadowProxy: nodes[1] has a shadow proxy itself"},
+      {"without a mesh", [](TestGltf& g) { g.document["nodes"][1].erase("mesh"); },
+       "nodes[0].extras.shadowProxy: nodes[1] has no mesh"},
+      {"skinned proxy", [](TestGltf& g) { g.document["nodes"][1]["skin"] = 0; },
+       "nodes[0].extras.shadowProxy: nodes[1] has a skin"},
+      {"skinned original", [](TestGltf& g) { g.document["nodes"][0]["skin"] = 0; },
+       "nodes[0]: has a skin, its shadow proxy does not count"},
+      {"of points", [](TestGltf& g) { g.document["meshes"][1]["primitives"][0]["mode"] = 0; },
+       "nodes[0]: nodes[1] has no triangles, its shadow proxy does not count"},
+      {"of what does not cast", [](TestGltf& g) { g.document["nodes"][0]["extras"]["castShadow"] = false; },
+       "nodes[0]: casts no shadow, its shadow proxy does not count"},
+  };
+  for (const Case& one : cases) {
+    SCOPED_TRACE(one.what);
+    TestGltf gltf = statue();
+    gltf.document["skins"] = {{{"joints", {1}}}};
+    one.change(gltf);
+    const Scene scene = gltf.load();
+    const auto says = [&](const std::string& line) { return line.starts_with(one.says); };
+    EXPECT_EQ(std::count_if(scene.warnings.begin(), scene.warnings.end(), says), 1)
+        << testing::PrintToString(scene.warnings);
+    EXPECT_EQ(scene.instances.at(0).casts, std::string(one.what) != "of what does not cast");
+    EXPECT_FALSE(scene.instances.at(0).has_proxy);
+  }
+}
+
+TEST(ShadowProxy, of_another_file_is_that_of_the_same_node_else_of_the_same_mesh) {
+  const auto original = [] {
+    TestGltf gltf = statue();
+    gltf.document["nodes"][0].erase("extras");
+    gltf.document["meshes"][0]["name"] = "marble";
+    gltf.show_node({{"name", "twin"}, {"mesh", 0}, {"translation", {0, 0, 4}}});
+    return gltf;
+  };
+  TestGltf other = one_triangle();
+  other.document["nodes"][0]["name"] = "statue";
+  other.show_node({{"name", "nowhere"}, {"mesh", 0}});
+  const Scene proxies = other.load();
+  Scene scene = original().load();
+  cast_by_proxies(proxies, "low.glb", {}, scene);
+  ASSERT_EQ(scene.instances.size(), 4u);
+  EXPECT_TRUE(scene.instances[0].has_proxy);
+  EXPECT_FALSE(scene.instances[2].has_proxy) << "another node";
+  EXPECT_EQ(scene.instances[3].bounds_world, (Box{{5, 0, 0}, {6, 1, 0}}));
+  EXPECT_EQ(scene.warnings, std::vector<std::string>{"low.glb: no node of the scene is called nowhere"});
+  // By the mesh both nodes have one.
+  other.document["nodes"][0]["name"] = "elsewhere";
+  other.document["meshes"][0]["name"] = "marble";
+  scene = original().load();
+  cast_by_proxies(other.load(), "low.glb", {}, scene);
+  ASSERT_EQ(scene.instances.size(), 5u);
+  EXPECT_TRUE(scene.instances[0].has_proxy && scene.instances[2].has_proxy);
+  EXPECT_EQ(scene.instances[4].bounds_world, (Box{{0, 0, 4}, {1, 1, 4}}));
+  Pose at_end;
+  ASSERT_TRUE(pose(scene, 0, 1.0, at_end));
+  apply_pose(at_end, scene);
+  EXPECT_EQ(scene.instances[3].bounds_world, (Box{{7, 0, 0}, {8, 1, 0}}));
+}
+
+TEST(ShadowProxy, of_another_file_that_fits_nothing_is_refused_in_one_line) {
+  const auto refusal = [](TestGltf other, const LoadLimits& limits = {}) {
+    Scene scene = statue().load();
+    scene.instances[0].has_proxy = false;
+    scene.instances[0].casts = true;
+    try {
+      cast_by_proxies(other.load(), "low.glb", limits, scene);
+    } catch (const SceneError& e) {
+      return std::string(e.what());
+    }
+    return testing::PrintToString(scene.warnings);
+  };
+  TestGltf other = one_triangle();
+  EXPECT_EQ(refusal(other), "low.glb: no mesh is a shadow proxy of a node of the scene");
+  other.document["nodes"][0]["name"] = "statue";
+  LoadLimits few;
+  few.triangles = 3;
+  EXPECT_EQ(refusal(other, few), "low.glb: shadow proxies: take the scene above 3 triangles");
+  TestGltf twice = other;
+  twice.show({{"attributes", {{"POSITION", twice.positions(kTriangle)}}}}, {{"name", "statue"}});
+  EXPECT_EQ(refusal(twice), "low.glb: no mesh is a shadow proxy of a node of the scene");
+  // A proxy of a proxy is none, and neither is what has a skin.
+  TestGltf chain = statue();
+  EXPECT_EQ(refusal(chain), "low.glb: no mesh is a shadow proxy of a node of the scene");
+  Scene scene = statue().load();
+  scene.warnings.clear();
+  TestGltf both = one_triangle();
+  both.document["nodes"][0]["name"] = "statue";
+  EXPECT_THROW(cast_by_proxies(both.load(), "low.glb", {}, scene), SceneError);
+  EXPECT_EQ(scene.warnings,
+            std::vector<std::string>{"nodes[0]: has a shadow proxy of its own, the shadow proxy "
+                                     "of low.glb does not count"});
 }
 
 }  // namespace

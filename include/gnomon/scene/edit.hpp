@@ -1,10 +1,12 @@
-// A scene other than its file has it: with a ground under it, or cut open by planes.
+// A scene other than its file has it: with shadow proxies, cut open by planes, or with a ground under it.
 #pragma once
 
 #include <glm/vec3.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "gnomon/scene/load.hpp"
 #include "gnomon/scene/scene.hpp"
 
 namespace gnomon {
@@ -22,6 +24,7 @@ inline constexpr std::size_t kMaxSections = 8;  ///< of SceneEdits
 struct SceneEdits {
   bool ground = false;                 ///< add_ground()
   std::vector<SectionPlane> sections;  ///< cut_by(), before the ground
+  std::string proxies = {};            ///< scene for cast_by_proxies(), before both; empty: none
   /// Equal in all members.
   bool operator==(const SceneEdits&) const = default;
 };
@@ -38,7 +41,20 @@ void add_ground(Scene& scene);
 /// stay shared. Instances beyond a plane are removed. Animations are removed with a warning, as a cut holds
 /// for one pose. Planes with a normal of zero or numbers that are not finite do nothing.
 void cut_by(std::span<const SectionPlane> planes, Scene& scene);
-/// All edits.
-void edit(const SceneEdits& edits, Scene& scene);
+/// Lets meshes of `proxies` cast in place of the scene's. For each node it is the mesh of the node of the
+/// same name, else the mesh of the name of its mesh. A shadow proxy stands in the object space of its
+/// original, follows its animation, and is not seen. Originals receive, and cast no more. A node with a skin,
+/// that an animation bends, that casts none or has a proxy, stays as it is. A warning of the scene names
+/// each, and proxies of these kinds, ambiguous names, and nodes that match nothing. `where`: file, for
+/// messages. Throws SceneError where nothing matches, or where the scene grows beyond the limits.
+void cast_by_proxies(const Scene& proxies, const std::string& where, const LoadLimits& limits, Scene& scene);
+/// Triangles that a map of the whole scene draws.
+struct CastTriangles {
+  std::uint64_t by_proxies = 0;  ///< with shadow proxies
+  std::uint64_t without = 0;     ///< as if originals cast
+};
+[[nodiscard]] CastTriangles cast_triangles(const Scene& scene) noexcept;
+/// All edits. Throws SceneError where the proxies cannot be read, or match nothing.
+void edit(const SceneEdits& edits, Scene& scene, const LoadLimits& limits = {});
 
 }  // namespace gnomon

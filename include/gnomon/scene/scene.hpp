@@ -52,6 +52,14 @@ struct Primitive {
   Box bounds;                                      ///< object space
 };
 
+/// A node of a file that places a mesh.
+struct SceneNode {
+  std::uint32_t index = 0;  ///< in the file
+  std::string name, mesh;   ///< names of the node and of its mesh; may be empty
+  bool skinned = false;     ///< its vertices are in world space, where a skin has them
+};
+inline constexpr std::uint32_t kNoNode = 0xffffffff;  ///< of an instance that no file has
+
 /// One primitive placed in the world: the unit of drawing and of culling.
 struct Instance {
   glm::dmat4 world_from_object{1.0};  ///< affine
@@ -59,6 +67,9 @@ struct Instance {
   bool mirrored = false;              ///< the transform turns the winding round (negative determinant)
   bool casts = true;                  ///< false: no shadow of it falls on anything, nor on itself
   bool receives = true;               ///< false: no shadow falls on it, it is lit wherever it faces the light
+  bool shown = true;                  ///< false: cameras do not see it; it may cast, as a shadow proxy does
+  bool has_proxy = false;             ///< a shadow proxy casts in its place, and it does not
+  std::uint32_t node = kNoNode;       ///< index into Scene::nodes
   Box bounds_world;                   ///< of the transformed vertices, not of the transformed box
 };
 
@@ -90,11 +101,12 @@ struct Scene {
   std::vector<glm::vec2> texcoords;    ///< (0, 0) is the first texel of the first row
   std::vector<std::uint32_t> indices;  ///< three for each triangle
   std::vector<Primitive> primitives;   ///< each placed by any number of instances
-  std::vector<Instance> instances;     ///< in the order of the file's nodes
+  std::vector<Instance> instances;     ///< in the order of the file's nodes, shadow proxies last
+  std::vector<SceneNode> nodes;        ///< that instances are of
   std::vector<Material> materials;  ///< never empty: index 0 is the default material where a file names none
   std::vector<Image> images;        ///< of base colours
   std::vector<std::string> warnings;  ///< repairs and omissions of the loader, a line each
-  Box bounds_world;                   ///< of all instances; empty for an empty scene
+  Box bounds_world;                   ///< of all instances that are shown; empty without any
   SceneMotion motion;                 ///< what pose() moves; empty without animations
   std::vector<SceneLight> lights;     ///< of nodes that are shown, at rest
   std::vector<SceneCamera> cameras;   ///< the same

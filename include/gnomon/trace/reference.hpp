@@ -41,6 +41,10 @@ struct SurfacePoints {
   std::vector<SurfacePoint> pixels;  ///< width x height
 };
 
+/// The ray from the eye through a place in the picture: shares of its width from the left, of its height from
+/// the top. It runs from the near depth to the far one. Its t is the view depth.
+[[nodiscard]] Ray eye_ray(const Camera& camera, const CameraAxes& axes, double column_share,
+                          double row_share) noexcept;
 /// Finds the triangle behind each pixel by a ray from the eye. `positions` and `normals` are those of
 /// render::Renderer of the same names: relative to camera.position, and "surface" in the fourth channel.
 [[nodiscard]] SurfacePoints surface_points(const Tracer& tracer, const Camera& camera, const Light& light,

@@ -71,9 +71,12 @@ class Tracer {
   /// out[i] = 1 where a caster (Instance::casts) stops rays[i], else 0. The spans are equally long.
   /// Neighbours in the span should be neighbours in the scene.
   void occluded(std::span<const Ray> rays, std::span<std::uint8_t> out) const;
-  /// By our own hierarchy, in double, whichever the engine: what a ray meets first.
+  /// By our own hierarchy, in double, whichever the engine: what cameras may see (Instance::shown) and a ray
+  /// meets first.
   [[nodiscard]] Hit first_hit(const Ray& ray) const noexcept;
-  /// The same for what a picture shows: without back faces, unless their material is double-sided.
+  /// The same among casters.
+  [[nodiscard]] Hit first_caster(const Ray& ray) const noexcept;
+  /// As first_hit, for what a picture shows: without back faces, unless their material is double-sided.
   [[nodiscard]] Hit first_seen(const Ray& ray) const noexcept;
   /// As first_hit, but the hit whose t is nearest to `t`.
   [[nodiscard]] Hit hit_nearest_to(const Ray& ray, double t) const noexcept;

@@ -297,9 +297,10 @@ void DrawLists::mark_visible(const Camera& camera) {
   const std::array<ViewPlane, 6> planes = view_planes(camera, camera_axes(camera));
   for (std::size_t i = 0; i < visible_.size(); ++i) {
     const Box& box = scene_.boxes()[i];
-    visible_[i] = std::none_of(planes.begin(), planes.end(), [&](const ViewPlane& plane) {
-      return wholly_outside(box, camera.position, plane);
-    });
+    visible_[i] = scene_.shown(static_cast<std::uint32_t>(i)) &&
+                  std::none_of(planes.begin(), planes.end(), [&](const ViewPlane& plane) {
+                    return wholly_outside(box, camera.position, plane);
+                  });
   }
 }
 

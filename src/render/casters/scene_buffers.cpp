@@ -63,6 +63,7 @@ SceneBuffers::SceneBuffers(const Scene& scene)
     mirrored_[i] = instance.mirrored;
     casts_.push_back(instance.casts);
     receives_.push_back(instance.receives);
+    shown_.push_back(instance.shown);
     move(i, instance);
   }
   upload_vertices(scene);

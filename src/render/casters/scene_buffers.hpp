@@ -64,6 +64,8 @@ class SceneBuffers {
   [[nodiscard]] std::span<const Box> boxes() const noexcept { return boxes_; }
   /// Instance::casts.
   [[nodiscard]] bool casts(std::uint32_t instance) const noexcept { return casts_[instance]; }
+  /// Instance::shown.
+  [[nodiscard]] bool shown(std::uint32_t instance) const noexcept { return shown_[instance]; }
   [[nodiscard]] const Primitive& primitive_of(std::uint32_t instance) const noexcept {
     return primitives_[primitive_of_[instance]];
   }
@@ -104,7 +106,7 @@ class SceneBuffers {
   std::vector<Primitive> primitives_;
   CasterClusters clusters_;
   std::vector<Material> materials_;
-  std::vector<bool> mirrored_, casts_, receives_;  ///< by instance
+  std::vector<bool> mirrored_, casts_, receives_, shown_;  ///< by instance
   std::size_t vertex_count_ = 0;
   std::vector<std::uint32_t> primitive_of_;
   std::vector<glm::dvec3> translation_;

@@ -101,7 +101,7 @@ std::vector<double> blocker_distances(const Stage& stage, const FrameTruth& trut
     ray.origin = point.position;
     ray.direction = -travel_at(stage.light(), point.position);
     ray.except = point.triangle;
-    const trace::Hit hit = stage.tracer().first_hit(ray);
+    const trace::Hit hit = stage.tracer().first_caster(ray);
     if (hit.triangle != trace::kNoTriangle) distances[i] = hit.t;
   }
   return distances;

@@ -162,6 +162,65 @@ TEST_F(Casting, every_source_of_shadows_agrees_with_rays) {
     }
 }
 
+TEST_F(Casting, a_proxy_casts_and_neither_cameras_nor_rays_from_the_eye_see_it) {
+  const Camera camera = camera_on_box(kSize, kSize);
+  Scene proxied = board_over_box(), without = box_on_ground();
+  proxied.instances[kBoard].shown = proxied.instances[kBoard].receives = false;
+  const Plans plans(proxied, camera);
+  const trace::Tracer tracer(proxied);
+  for (const Source& source :
+       {Source::maps, Source::pages, Source::lights, Source::irregular(), Source::identifiers()}) {
+    SCOPED_TRACE(static_cast<int>(source.kind));
+    Renderer renderer(proxied), alone(without);
+    renderer.draw(plans.shadows(source), camera, renderer.prepare(filters::hard, source), mask_only());
+    alone.draw(plan_of(without, camera), camera, alone.prepare(filters::hard), mask_only());
+    const Frame frame{camera, plans.maps, renderer.mask(), renderer.positions(), renderer.normals()};
+    constexpr float kRounding = 1e-4f;  // of matrices, whose origin depends on the scene
+    const std::vector<float> with = frame.positions.values, bare = alone.positions().values;
+    std::size_t apart = 0;
+    for (std::size_t i = 0; i < with.size(); ++i) apart += std::abs(with[i] - bare[i]) > kRounding;
+    EXPECT_EQ(apart, 0u) << "the picture shows it";
+    const Judged found = judged(proxied, frame);
+    EXPECT_GT(found.lit, 5000);
+    EXPECT_GT(found.shadow, 2000) << "it casts no shadow";
+    EXPECT_LE(found.wrong, source == Source::irregular() ? 0 : found.lit / 50);
+  }
+  std::size_t seen = 0;
+  const CameraAxes axes = camera_axes(camera);
+  for (int i = 0; i < 100; ++i) {
+    const trace::Ray ray = trace::eye_ray(camera, axes, (i % 10 + 0.5) / 10, (i / 10 + 0.5) / 10);
+    for (const trace::Hit& hit :
+         {tracer.first_hit(ray), tracer.first_seen(ray), tracer.hit_nearest_to(ray, 1.0)})
+      if (hit.triangle != trace::kNoTriangle) {
+        ++seen;
+        EXPECT_NE(tracer.instance_of(hit.triangle), kBoard);
+      }
+  }
+  EXPECT_GT(seen, 100u);
+  trace::Ray down;
+  down.origin = {-1.0, 5.0, 0.0};
+  down.direction = {0, -1, 0};
+  EXPECT_EQ(tracer.instance_of(tracer.first_caster(down).triangle), kBoard);
+}
+
+TEST_F(Casting, an_orthographic_camera_has_the_shadows_of_exact_rays_by_every_source) {
+  const Camera camera =
+      orthographic_camera({6.0, 9.0, 8.0}, {-0.6, -0.8, -0.8}, {0, 1, 0}, 9.0, 1.0, 0.5, 40.0, kSize, kSize);
+  const Scene scene = board_over_box();
+  const Plans plans(scene, camera);
+  for (const Source& source :
+       {Source::maps, Source::pages, Source::lights, Source::irregular(), Source::identifiers()}) {
+    SCOPED_TRACE(static_cast<int>(source.kind));
+    Renderer renderer(scene);
+    renderer.draw(plans.shadows(source), camera, renderer.prepare(filters::hard, source), mask_only());
+    const Frame frame{camera, plans.maps, renderer.mask(), renderer.positions(), renderer.normals()};
+    const Judged found = judged(scene, frame);
+    EXPECT_GT(found.lit, 2000);
+    EXPECT_GT(found.shadow, 500);
+    EXPECT_LE(found.wrong, source == Source::irregular() ? 0 : found.lit / 50);
+  }
+}
+
 TEST_F(Casting, no_ray_of_a_soft_reference_stops_at_what_does_not_cast) {
   Scene scene = board_over_box(), without = box_on_ground();
   scene.instances[kBoard].casts = false;
