@@ -35,6 +35,24 @@ Sight sight_from(const glm::dvec3& eye, std::span<const Box> boxes) noexcept {
   return {std::exp2(std::floor(std::log2(near_depth))), far_depth};
 }
 
+void see_all(CameraPath& path, std::span<const Box> boxes) noexcept {
+  constexpr double kBefore = 1.0 / 256.0;  // of the radius, so that the nearest corner is not cut
+  Box all;
+  for (const Box& box : boxes)
+    if (!box.empty()) all.extend(box);
+  if (all.empty()) return;
+  const double radius = std::max(0.5 * glm::length(all.max - all.min), path.height_world * kBefore);
+  path.near_depth = kBefore * radius;
+  path.far_depth = 2.0 * radius * (1.0 + kBefore);
+  for (CameraKey& key : path.keys) {
+    const glm::dvec3 forward = glm::normalize(key.target - key.position);
+    const double depth = glm::dot(forward, 0.5 * (all.min + all.max) - key.position);
+    const glm::dvec3 shift = forward * (depth - radius * (1.0 + kBefore));
+    key.position += shift;
+    key.target = key.position + forward * radius;
+  }
+}
+
 namespace {
 
 // Knots nearer together than this part of a unit span would divide by nothing; keys may well repeat.
@@ -112,6 +130,9 @@ Camera CameraPath::at(double t, int width, int height) const noexcept {
   // Two keys that look at each other meet in the middle; a camera must still look somewhere.
   if (!(glm::dot(forward, forward) > 0.0)) forward = {0.0, 0.0, -1.0};
   const double aspect = height > 0 ? static_cast<double>(width) / static_cast<double>(height) : 1.0;
+  if (height_world > 0.0)
+    return orthographic_camera(key.position, forward, {0.0, 1.0, 0.0}, height_world, aspect, near_depth,
+                               far_depth, width, height);
   return perspective_camera(key.position, forward, {0.0, 1.0, 0.0}, fov_y_radians, aspect, near_depth,
                             far_depth, width, height);
 }

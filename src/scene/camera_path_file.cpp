@@ -59,7 +59,7 @@ glm::dvec3 point(const json& object, const char* key, const std::string& where) 
 }
 
 CameraPath parse(const json& source) {
-  refuse_unknown(source, "path", {"keys", "closed", "fov_y_deg", "near", "far"});
+  refuse_unknown(source, "path", {"keys", "closed", "fov_y_deg", "height_world", "near", "far"});
   CameraPath path;
   const auto keys = source.find("keys");
   if (keys == source.end() || !keys->is_array() || keys->empty())
@@ -78,6 +78,11 @@ CameraPath parse(const json& source) {
   const double fov_deg = number(source, "fov_y_deg", path.fov_y_radians / kDegree);
   if (!(fov_deg > 0.0 && fov_deg < 180.0)) throw Refusal("fov_y_deg", "must lie between 0 and 180");
   path.fov_y_radians = fov_deg * kDegree;
+  if (source.contains("height_world")) {
+    if (source.contains("fov_y_deg")) throw Refusal("height_world", "is given beside fov_y_deg");
+    path.height_world = number(source, "height_world", 0.0);
+    if (!(path.height_world > 0.0)) throw Refusal("height_world", "must be above 0");
+  }
   path.near_depth = number(source, "near", path.near_depth);
   path.far_depth = number(source, "far", path.far_depth);
   if (!(path.near_depth > 0.0)) throw Refusal("near", "must be above 0");
@@ -118,11 +123,11 @@ void save_camera_path(const CameraPath& path, const std::filesystem::path& file)
   for (const CameraKey& key : path.keys) {
     keys.push_back({{"position", to_json(key.position)}, {"target", to_json(key.target)}});
   }
-  const json out = {{"keys", keys},
-                    {"closed", path.closed},
-                    {"fov_y_deg", path.fov_y_radians / kDegree},
-                    {"near", path.near_depth},
-                    {"far", path.far_depth}};
+  json out = {{"keys", keys}, {"closed", path.closed}, {"near", path.near_depth}, {"far", path.far_depth}};
+  if (path.height_world > 0.0)
+    out["height_world"] = path.height_world;
+  else
+    out["fov_y_deg"] = path.fov_y_radians / kDegree;
   const std::string why = write_whole_file(file, out.dump(1) + "\n");
   if (!why.empty()) throw SceneError(detail::one_line(file.string() + ": file: cannot be written: " + why));
 }

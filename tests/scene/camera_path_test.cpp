@@ -158,6 +158,36 @@ TEST(CameraPath, makes_a_perspective_camera_of_the_requested_image) {
   EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
 }
 
+TEST(CameraPath, with_a_height_is_orthographic) {
+  CameraPath path = path_of({{{0, 0, 10}, {0, 0, 0}}});
+  path.height_world = 6.0;
+  const Camera camera = path.at(0.5, 200, 100);
+  EXPECT_TRUE(camera.orthographic);
+  EXPECT_EQ(camera.top, 3.0);
+  EXPECT_EQ(camera.left, -6.0);
+  // All of a scene lies before it, from wherever it looks, and once more it stays.
+  const Box all{{-30, -1, -20}, {50, 8, 40}};
+  path.keys = {{{0, 3, 1}, {1, 0, 0}}};
+  see_all(path, {&all, 1});
+  const Camera outside = path.at(0.0, 10, 10);
+  const CameraAxes axes = camera_axes(outside);
+  EXPECT_LT(glm::length(axes.forward - glm::normalize(glm::dvec3(1, -3, -1))), kRounding);
+  EXPECT_LT(glm::length(glm::cross(outside.position - glm::dvec3(0, 3, 1), axes.forward)), 1e-10);
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 at((corner & 1) != 0 ? all.max.x : all.min.x, (corner & 2) != 0 ? all.max.y : all.min.y,
+                        (corner & 4) != 0 ? all.max.z : all.min.z);
+    const double depth = glm::dot(at - outside.position, axes.forward);
+    EXPECT_GE(depth, outside.near_depth);
+    EXPECT_LE(depth, outside.far_depth);
+  }
+  CameraPath again = path;
+  see_all(again, {&all, 1});
+  EXPECT_LT(glm::length(again.keys[0].position - path.keys[0].position), 1e-10);
+  const WrittenFolder folder;
+  save_camera_path(path, folder.path() / "plan.json");
+  EXPECT_EQ(load_camera_path(folder.path() / "plan.json").height_world, 6.0);
+}
+
 TEST(CameraPathFile, saved_and_loaded_again_is_the_same_flight) {
   CameraPath path = path_of({{{0.1, 1e-9, 3e7}, {1.0 / 3.0, 0, 0}}, {{4, 5, 6}, {7, 8, 9}}}, true);
   path.near_depth = 0.123;
@@ -196,6 +226,8 @@ TEST(CameraPathFile, what_is_wrong_is_named_with_its_file_and_key) {
       {R"({"keys":[{"position":[0,0,1],"target":[0,0,2],"roll":1}]})", "unknown key 'roll'"},
       {R"({"keys":[)" + key + R"(],"fov":60})", "unknown key 'fov'"},
       {R"({"keys":[)" + key + R"(],"fov_y_deg":180})", "fov_y_deg"},
+      {R"({"keys":[)" + key + R"(],"height_world":0})", "height_world: must be above 0"},
+      {R"({"keys":[)" + key + R"(],"height_world":2,"fov_y_deg":60})", "height_world: is given beside fov"},
       {R"({"keys":[)" + key + R"(],"near":0})", "near"},
       {R"({"keys":[)" + key + R"(],"near":5,"far":5})", "far"},
       {R"({"keys":[)" + key + R"(],"closed":1})", "closed"},

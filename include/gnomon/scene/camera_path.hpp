@@ -23,14 +23,18 @@ struct CameraPath {
   std::vector<CameraKey> keys;                ///< at least one
   bool closed = false;                        ///< the last key leads back to the first
   double fov_y_radians = 1.0471975511965976;  ///< 60 degrees
-  double near_depth = 0.1;                    ///< near plane, world units, above 0
-  double far_depth = 100.0;                   ///< far plane, world units
+  /// World units from the bottom of the image to its top; above 0 the camera is orthographic, and
+  /// fov_y_radians does not count.
+  double height_world = 0.0;
+  double near_depth = 0.1;   ///< near plane, world units, above 0
+  double far_depth = 100.0;  ///< far plane, world units
   /// The camera at time `t` in [0,1] (clamped), for an image of this size. World up is +Y.
   [[nodiscard]] Camera at(double t, int width, int height) const noexcept;
 };
 
 /// Reads
-/// {"keys":[{"position":[x,y,z],"target":[x,y,z]},...],"closed":false,"fov_y_deg":60,"near":0.1,"far":100}.
+/// {"keys":[{"position":[x,y,z],"target":[x,y,z]},...],"closed":false,"fov_y_deg":60,"near":0.1,"far":100},
+/// with "height_world" in place of "fov_y_deg" for an orthographic camera.
 /// Unknown keys are an error. Throws SceneError with file and key.
 [[nodiscard]] CameraPath load_camera_path(const std::filesystem::path& file);
 /// Writes the same format.
@@ -45,6 +49,10 @@ struct Sight {
 /// begins below 1e-6 of that. It ends beyond the farthest corner. Both are powers of two, so that they seldom
 /// change while the eye moves. The default where all boxes are empty.
 [[nodiscard]] Sight sight_from(const glm::dvec3& eye, std::span<const Box> boxes) noexcept;
+
+/// Moves the keys of an orthographic path along their views, and its near and far plane, so that all boxes
+/// lie between these. Does nothing where all boxes are empty.
+void see_all(CameraPath& path, std::span<const Box> boxes) noexcept;
 
 /// The default flight of a builtin scene, by its name. Any other scene has an orbit that shows all that it is
 /// about, as near as an image of this width over height allows. The default holds it in a square image and
