@@ -24,6 +24,7 @@ std::string point_text(const glm::dvec3& point) {
 std::string path_text(const CameraPath& path) {
   std::string text =
       fmt::format("{} {} {} {}", path.closed, path.fov_y_radians, path.near_depth, path.far_depth);
+  if (path.height_world > 0.0) text += fmt::format(" orthographic {}", path.height_world);
   for (const CameraKey& key : path.keys)
     text += " " + point_text(key.position) + " " + point_text(key.target);
   return text;
@@ -35,19 +36,28 @@ void check_depths(const CameraWords& words, double near_depth, double far_depth)
                                        words.near_depth > 0.0 ? "--near" : "--far", near_depth, far_depth));
 }
 
+std::vector<Box> boxes_seen(const Scene& scene) {
+  std::vector<Box> boxes;
+  for (const Instance& instance : scene.instances)
+    if (instance.shown) boxes.push_back(instance.bounds_world);
+  return boxes;
+}
+
 /// The path of one key that shows what a camera of the file does.
 CameraPath path_of(const SceneCamera& camera, const Scene& scene) {
-  if (camera.orthographic)
-    throw std::runtime_error("--camera " + camera.name + ": is orthographic, and pictures are perspective");
   CameraPath path;
   path.keys = {{camera.position, camera.position + camera.forward}};
-  path.fov_y_radians = camera.fov_y_radians;
-  path.near_depth = camera.near_depth;
-  std::vector<Box> boxes;
-  for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
-  path.far_depth = std::isfinite(camera.far_depth)
-                       ? camera.far_depth
-                       : std::max(sight_from(camera.position, boxes).far_depth, 2.0 * camera.near_depth);
+  if (camera.orthographic)
+    path.height_world = camera.height_world;
+  else
+    path.fov_y_radians = camera.fov_y_radians;
+  path.far_depth =
+      std::isfinite(camera.far_depth)
+          ? camera.far_depth
+          : std::max(sight_from(camera.position, boxes_seen(scene)).far_depth, 2.0 * camera.near_depth);
+  // An orthographic camera may see from its own place on, and a path begins beyond.
+  constexpr double kLeast = 1e-6;
+  path.near_depth = std::max(camera.near_depth, kLeast * path.far_depth);
   // A path's cameras stand upright: up is +Y.
   constexpr double kUpright = 1e-3;
   const glm::dvec3 side = glm::cross(camera.forward, glm::dvec3(0.0, 1.0, 0.0));
@@ -94,6 +104,11 @@ std::vector<Option> camera_options(CameraWords& words) {
            .word = "NAME"},
           point_option("--eye", words.eye, "position of the camera, world units; needs --target"),
           point_option("--target", words.target, "point that the camera looks at"),
+          {.name = "--orthographic",
+           .target = &words.height_world,
+           .help = "world units from the bottom of the picture to its top, by parallel rays; 0: of the path",
+           .word = "HEIGHT",
+           .range = {{0.0, 1e30}}},
           {.name = "--near",
            .target = &words.near_depth,
            .help = "view depth at which sight begins, world units; 0: of the path",
@@ -121,16 +136,19 @@ void check_camera(const CameraWords& words) {
 CameraPath camera_path(const CameraWords& words, const Scene& scene, double aspect) {
   check_camera(words);
   CameraPath path = words.path.empty() ? default_path(scene, aspect) : load_camera_path(words.path);
+  const std::vector<Box> boxes = boxes_seen(scene);
   if (!words.of_file.empty())
     path = path_of(named_in(scene.cameras, words.of_file, "--camera", "camera"), scene);
   if (words.eye) {
     path.keys = {{*words.eye, *words.target}};
     path.closed = false;
-    std::vector<Box> boxes;
-    for (const Instance& instance : scene.instances) boxes.push_back(instance.bounds_world);
     const Sight sight = sight_from(*words.eye, boxes);
     path.near_depth = sight.near_depth;
     path.far_depth = sight.far_depth;
+  }
+  if (words.height_world > 0.0) {
+    path.height_world = words.height_world;
+    if (words.path.empty() && !(words.near_depth > 0.0) && !(words.far_depth > 0.0)) see_all(path, boxes);
   }
   if (words.near_depth > 0.0) path.near_depth = words.near_depth;
   if (words.far_depth > 0.0) path.far_depth = words.far_depth;
@@ -146,6 +164,7 @@ std::string camera_text(const CameraWords& words) {
                     fnv_of(path_text(load_camera_path(words.path)))));
   if (!words.of_file.empty()) add("camera " + one_line(words.of_file));
   if (words.eye) add("eye " + point_text(*words.eye) + " target " + point_text(*words.target));
+  if (words.height_world > 0.0) add(fmt::format("orthographic {}", words.height_world));
   if (words.near_depth > 0.0) add(fmt::format("near {}", words.near_depth));
   if (words.far_depth > 0.0) add(fmt::format("far {}", words.far_depth));
   return text;

@@ -16,6 +16,7 @@ struct CameraWords {
   std::string path;                          ///< file; empty: none
   std::string of_file;                       ///< camera of the scene's file, by name or number; empty: none
   std::optional<glm::dvec3> eye, target;     ///< world; both or neither, and not with a path
+  double height_world = 0.0;                 ///< of an orthographic picture; 0: of the path
   double near_depth = 0.0, far_depth = 0.0;  ///< world units; 0: of the path, or as the eye stands
 };
 
@@ -23,7 +24,7 @@ struct CameraWords {
 [[nodiscard]] glm::dvec3 point_word(const std::string& option, const std::string& word);
 [[nodiscard]] Option point_option(std::string name, std::optional<glm::dvec3>& point, std::string help);
 
-/// --path, --camera, --eye, --target, --near, --far.
+/// --path, --camera, --eye, --target, --orthographic, --near, --far.
 [[nodiscard]] std::vector<Option> camera_options(CameraWords& words);
 
 /// Throws std::runtime_error where they do not go together, SceneError where the file is no path.

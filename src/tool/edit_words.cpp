@@ -3,9 +3,12 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
+
+#include "scene_words.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -64,12 +67,35 @@ std::vector<Option> edit_options(SceneEdits& edits) {
           {.name = "--section",
            .target = ParsedWord{set, {}},
            .help = "cut away what lies beyond planes: all p with normal . p > D; / between planes",
-           .word = "NX,NY,NZ,D"}};
+           .word = "NX,NY,NZ,D"},
+          {.name = "--proxies",
+           .target = &edits.proxies,
+           .help = "glTF file whose meshes cast in place of those of the same names",
+           .completion = Completion::files}};
+}
+
+std::string edit_text(const SceneEdits& edits, const LoadLimits& limits) {
+  std::string text = edits.ground ? "ground" : "";
+  const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : " ") + part; };
+  if (!edits.sections.empty()) add("section " + section_text(edits.sections));
+  if (!edits.proxies.empty())
+    add(fmt::format("proxies {} {:016x}", scene_title(edits.proxies),
+                    scene_files_hash(edits.proxies, limits)));
+  return text;
+}
+
+std::string proxies_text(const Scene& scene) {
+  const bool any = std::any_of(scene.instances.begin(), scene.instances.end(),
+                               [](const Instance& instance) { return instance.has_proxy; });
+  const CastTriangles triangles = cast_triangles(scene);
+  return any ? fmt::format("shadow proxies cast {} triangles in place of {}", triangles.by_proxies,
+                           triangles.without)
+             : "";
 }
 
 Scene load_edited(const std::string& spec, const LoadLimits& limits, const SceneEdits& edits) {
   Scene scene = load_scene(spec, limits);
-  edit(edits, scene);
+  edit(edits, scene, limits);
   return scene;
 }
 

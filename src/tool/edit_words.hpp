@@ -1,4 +1,4 @@
-// Edits of a scene on a command line: --ground and --section.
+// Edits of a scene on a command line: --ground, --section and --proxies.
 #pragma once
 
 #include <string>
@@ -15,6 +15,11 @@ namespace gnomon::tool {
 [[nodiscard]] std::vector<SectionPlane> section_words(const std::string& option, const std::string& word);
 /// As section_words() reads them.
 [[nodiscard]] std::string section_text(const std::vector<SectionPlane>& planes);
+/// What tells one such scene from another, for rows of results. Empty without edits. Throws SceneError where
+/// the file of proxies cannot be read.
+[[nodiscard]] std::string edit_text(const SceneEdits& edits, const LoadLimits& limits);
+/// How many triangles shadow proxies save a map of the whole scene; empty where there are none.
+[[nodiscard]] std::string proxies_text(const Scene& scene);
 /// The scene with its edits. Throws SceneError.
 [[nodiscard]] Scene load_edited(const std::string& spec, const LoadLimits& limits, const SceneEdits& edits);
 

@@ -3,6 +3,7 @@
 
 #include <iterator>
 
+#include "edit_words.hpp"
 #include "offscreen_context.hpp"
 #include "picture_words.hpp"
 #include "scene_words.hpp"
@@ -31,7 +32,9 @@ std::vector<Option> measuring_options(Measuring& measuring, Option scenes, std::
   add(std::move(own));
   add(light_options(measuring.light));
   add(camera_options(measuring.camera));
-  add({size_option(measuring.width, measuring.height),
+  add(edit_options(measuring.edits));
+  add({max_triangles_option(measuring.max_triangles),
+       size_option(measuring.width, measuring.height),
        {.name = "--out", .target = &measuring.out, .help = out_help, .completion = Completion::folders},
        {.name = "--json", .target = &measuring.json, .help = "print each row as a line of JSON"},
        context_option(measuring.context)});

@@ -9,6 +9,7 @@
 #include "command.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/scene/default_light.hpp"
+#include "gnomon/scene/edit.hpp"
 #include "gnomon/scene/load.hpp"
 
 namespace gnomon::tool {
@@ -18,6 +19,7 @@ struct Measuring {
   std::vector<std::string> scenes;  ///< builtin:NAME or files
   LightPlacement light;
   CameraWords camera;
+  SceneEdits edits;               ///< of the scenes, as they are loaded
   std::string animation;          ///< that scenes play, by name or number; empty: at rest
   int width = 480, height = 270;  ///< of a frame, pixels
   int frames = 4;                 ///< along the scene's camera path
@@ -31,9 +33,9 @@ struct Measuring {
 /// SCENE of a command that takes several; a name that is no built-in scene is refused.
 [[nodiscard]] Option scenes_option(Measuring& measuring, const std::string& help, bool required);
 
-/// All options of a command that prints rows: SCENE, its own, then --light, --path and so on, --size, --out, --json
-/// and
-/// --context.
+/// All options of a command that prints rows: SCENE, its own, then --light, --path, --ground and so on,
+/// --size,
+/// --out, --json and --context.
 [[nodiscard]] std::vector<Option> measuring_options(Measuring& measuring, Option scenes,
                                                     std::vector<Option> own, const std::string& out_help);
 

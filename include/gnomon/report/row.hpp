@@ -109,6 +109,9 @@ struct Row {
   /// Where the camera was placed by hand: its eye, or its path's file and a number for what that holds.
   /// Empty: the scene's own flight.
   std::string camera = {};
+  /// Edits of the scene: "ground", planes of a section, and a file of shadow proxies with a number for what
+  /// it holds. Empty: as its file has it.
+  std::string edits = {};
   std::string animation = {};     ///< of the scene that plays, by name or number; empty: the scene is at rest
   double animation_time_s = 0.0;  ///< of the frame's pose, seconds
   Technique technique;            ///< how the shadow was made

@@ -108,12 +108,12 @@ std::string summary_csv(const Summary& summary) {
 
 std::string frames_csv(const std::vector<Row>& rows) {
   std::string head = measure_head();
-  head.insert(head.size() - 1, ",camera,view");
+  head.insert(head.size() - 1, ",camera,edits,view");
   std::string out = std::string("scene,frame,") + kTechniqueHead + head;
   for (const Row& row : rows) {
     out += csv_field(row.scene) + "," + std::to_string(row.frame) + "," + technique_columns(row.technique);
     for (const Measure& measure : measures()) out += "," + exact_number(measure.of(row));
-    out += "," + csv_field(row.camera) + "," + csv_field(row.view) + "\n";
+    out += "," + csv_field(row.camera) + "," + csv_field(row.edits) + "," + csv_field(row.view) + "\n";
   }
   return out;
 }

@@ -269,6 +269,7 @@ std::string section_method(const PageInput& input) {
         short_number(row.light_elevation_deg) + " degrees elevation and " +
         short_number(row.light_azimuth_deg) + " azimuth, " + std::to_string(row.times.rounds) + " rounds" +
         (row.camera.empty() ? "" : ", camera " + row.camera) +
+        (row.edits.empty() ? "" : ", scenes with " + row.edits) +
         (row.animation.empty() ? "" : ", animation '" + row.animation + "' plays in " + row.scene));
     low = std::min(low, m.load);
     high = std::max(high, m.load);

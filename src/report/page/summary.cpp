@@ -85,20 +85,26 @@ double of_kernel(const Row& row, double value) {
   return row.truth == "none" ? kNotMeasured : value;
 }
 
-/// What a row's scene goes by: the view's name, else the scene, with its camera where the rows have several.
+/// What a row's scene goes by: the view's name, else the scene, with its camera and edits where the rows have
+/// several.
 class SceneNames {
  public:
   explicit SceneNames(const std::vector<Row>& rows) {
-    for (const Row& row : rows) cameras_[row.scene].insert(row.camera);
+    for (const Row& row : rows) {
+      cameras_[row.scene].insert(row.camera);
+      edits_[row.scene].insert(row.edits);
+    }
   }
   [[nodiscard]] std::string of(const Row& row) const {
     if (!row.view.empty()) return row.view;
-    return row.camera.empty() || cameras_.at(row.scene).size() < 2 ? row.scene
-                                                                   : row.scene + ", " + row.camera;
+    std::string name = row.scene;
+    if (!row.camera.empty() && cameras_.at(row.scene).size() > 1) name += ", " + row.camera;
+    if (!row.edits.empty() && edits_.at(row.scene).size() > 1) name += ", " + row.edits;
+    return name;
   }
 
  private:
-  std::map<std::string, std::set<std::string>> cameras_;
+  std::map<std::string, std::set<std::string>> cameras_, edits_;
 };
 
 }  // namespace

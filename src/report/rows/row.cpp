@@ -122,8 +122,10 @@ Json settings_json(const Row& row) {
             {"light_elevation_deg", row.light_elevation_deg},
             {"light_azimuth_deg", row.light_azimuth_deg},
             {"technique", to_json(row.technique)}};
-  // Rows keep the key that they had before cameras could be placed, scenes could move and pixels had rays.
+  // Rows keep the key that they had before cameras could be placed, scenes could be edited or move, and
+  // pixels had rays.
   if (!row.camera.empty()) json["camera"] = row.camera;
+  if (!row.edits.empty()) json["edits"] = row.edits;
   if (!row.animation.empty()) json["animation"] = row.animation;
   if (row.pixel_samples != kPixelSamples) json["pixel_samples"] = row.pixel_samples;
   return json;
@@ -358,6 +360,8 @@ Row row_from_json(const std::string& line, const std::string& where) {
     if (json.contains("view")) json.at("view").get_to(row.view);
     // Rows of the scene's own flight have none.
     if (json.contains("camera")) json.at("camera").get_to(row.camera);
+    // Rows of scenes as their files have them have none.
+    if (json.contains("edits")) json.at("edits").get_to(row.edits);
     // Rows of the default number have none.
     if (json.contains("pixel_samples")) get_whole(json.at("pixel_samples"), row.pixel_samples);
     row.technique = technique_from(json.at("technique"));

@@ -124,8 +124,9 @@ std::vector<View> views_of(const std::vector<report::Row>& rows) {
   std::vector<View> views;
   for (const report::Row& row : rows) {
     if (row.technique.filter.starts_with(kIrregular)) continue;  // no model predicts it: it reads no map
-    if (row.technique.is_given()) continue;                  // planned by others
-    if (!row.camera.empty()) continue;                           // rows do not hold what the path's file does
+    if (row.technique.is_given()) continue;                      // planned by others
+    // Rows do not hold what the files of a path and of shadow proxies do.
+    if (!row.camera.empty() || !row.edits.empty()) continue;
     const std::string name =
         fmt::format("{} {}/{} {} {:g}/{:g} {}x{}", row.scene, row.frame + 1, row.frames, row.light,
                     row.light_elevation_deg, row.light_azimuth_deg, row.width, row.height);

@@ -18,6 +18,7 @@
 #include "animation_words.hpp"
 #include "base/fnv.hpp"
 #include "command.hpp"
+#include "edit_words.hpp"
 #include "entry_file.hpp"
 #include "frame_pictures.hpp"
 #include "gnomon/report/page.hpp"
@@ -63,6 +64,7 @@ report::Row empty_row(const Sweep& sweep, std::size_t scene, int frame, std::siz
   row.light_elevation_deg = sweep.light.elevation_deg;
   row.light_azimuth_deg = sweep.light.azimuth_deg;
   row.camera = sweep.camera_text;
+  row.edits = sweep.edit_text;
   row.animation = sweep.animation;
   row.pixel_samples = sweep.pixel_samples;
   row.technique = sweep.entries[entry].technique;
@@ -83,12 +85,12 @@ std::vector<Task> tasks_of(const CompareRequest& request, const Sweep& sweep, st
   return tasks;
 }
 
-/// Throws std::runtime_error where a scene has no animation of that name.
-void check_animations(const Sweep& sweep) {
-  if (sweep.animation.empty()) return;
+/// Throws std::runtime_error where a scene has no animation of that name, or no node for the proxies.
+void check_scenes(const Sweep& sweep) {
+  if (sweep.animation.empty() && sweep.edits.proxies.empty()) return;
   for (const std::string& name : sweep.scenes) {
-    const Scene scene = load_scene(name, limits_of_triangles(sweep.max_triangles));
-    if (find_animation(scene.motion, sweep.animation) < 0)
+    const Scene scene = load_edited(name, limits_of_triangles(sweep.max_triangles), sweep.edits);
+    if (!sweep.animation.empty() && find_animation(scene.motion, sweep.animation) < 0)
       throw std::runtime_error(name + ": " + no_animation_text(scene.motion, sweep.animation));
   }
 }
@@ -197,7 +199,7 @@ ExactResults exact_results(const Part& part, std::size_t scene) {
   const Sweep& s = part.sweep;
   std::string identity = std::string(build_version()) + "\n" +
                          (trace::built_with_embree() ? "embree" : "own") + "\n" + s.scenes[scene] + "\n" +
-                         part.hashes[scene] + "\n" + s.animation + "\n" + light_text(s);
+                         part.hashes[scene] + "\n" + s.edit_text + "\n" + s.animation + "\n" + light_text(s);
   ExactKey light(fnv_of(identity));
   light.add(s.light.elevation_deg).add(s.light.azimuth_deg);
   identity += "\n" + std::to_string(light.hash());
@@ -281,6 +283,7 @@ class Run {
       const Clock::time_point frame_begin = Clock::now();
       if (!stage) {
         stage = std::make_unique<Stage>(part.sweep, part.sweep.scenes[scene], exact_results(part, scene));
+        for (const std::string& warning : stage->scene().warnings) warn(warning);
         refuse_entries(part, *stage, scene);
       }
       const auto refused = [&](const Task& task) { return refused_here_.contains(task.entry); };
@@ -471,7 +474,7 @@ Compared compare(std::span<const CompareRequest> requests) {
   for (Part& part : parts) {
     part.hashes = hashes_of(part.sweep);
     check_hashes(part);
-    check_animations(part.sweep);
+    check_scenes(part.sweep);
   }
   std::set<std::string> known = known_keys(parts, first.resume);
   const std::unique_ptr<render::Context> context = render::create_context(first.context);

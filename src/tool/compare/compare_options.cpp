@@ -8,6 +8,7 @@
 
 #include "command.hpp"
 #include "compare.hpp"
+#include "edit_words.hpp"
 #include "identifier_word.hpp"
 #include "offscreen_context.hpp"
 #include "output.hpp"
@@ -145,7 +146,7 @@ std::vector<Option> frame_options(CompareRequest& request) {
           context_option(request.context)};
 }
 
-std::vector<Option> light_and_camera_options(CompareRequest& request) {
+std::vector<Option> scene_options(CompareRequest& request) {
   std::vector<Option> options = light_options(request.light);
   options.push_back({.name = "--local-lights",
                      .target = &request.local_lights,
@@ -154,6 +155,7 @@ std::vector<Option> light_and_camera_options(CompareRequest& request) {
                          "behind a split :budget lets them share their texels (plan_lights)",
                      .range = {{0, 64}}});
   for (Option& option : camera_options(request.camera)) options.push_back(std::move(option));
+  for (Option& option : edit_options(request.edits)) options.push_back(std::move(option));
   return options;
 }
 
@@ -227,8 +229,7 @@ std::vector<Option> compare_options(CompareRequest& request) {
   request.out = "out/compare";
   request.pixel_samples = report::kPixelSamples;
   std::vector<Option> options{scenes_option(request, "builtin:NAME or glTF files; or one study.json", true)};
-  for (const auto& part :
-       {technique_options, entry_options, frame_options, light_and_camera_options, limit_options}) {
+  for (const auto& part : {technique_options, entry_options, frame_options, scene_options, limit_options}) {
     for (Option& option : part(request)) options.push_back(std::move(option));
   }
   return options;

@@ -17,7 +17,7 @@ namespace gnomon::tool {
 Stage::Stage(const Sweep& sweep, const std::string& scene, ExactResults exact)
     : sweep_(sweep),
       exact_(std::move(exact)),
-      view_(scene, sweep.light, sweep.camera, limits_of_triangles(sweep.max_triangles)) {
+      view_(scene, sweep.light, sweep.camera, limits_of_triangles(sweep.max_triangles), sweep.edits) {
   if (sweep.local_lights > 0) {
     pool_ = LightPool(local_lights(sweep.local_lights, view_.scene().bounds_world));
     view_.set_light(pool_.light(static_cast<std::size_t>(sweep.local_light)));

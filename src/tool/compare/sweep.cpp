@@ -414,6 +414,7 @@ Sweep make_sweep(const SweepRequest& request) {
   sweep.local_light = request.local_light;
   check_camera(request.camera);
   sweep.camera_text = camera_text(request.camera);
+  sweep.edit_text = edit_text(request.edits, limits_of_triangles(request.max_triangles));
   sweep.scenes.clear();
   for (const std::string& scene : request.scenes) {
     if (std::find(sweep.scenes.begin(), sweep.scenes.end(), scene) == sweep.scenes.end())

@@ -72,6 +72,7 @@ struct Sweep : Measuring {
   std::vector<std::string> left_out;      ///< combinations that cannot be measured, a line for each reason
   SweepEntry baseline;                    ///< hard x no warp x one map, of the first map size
   std::string camera_text;                ///< of the camera's words, for rows
+  std::string edit_text;                  ///< of the scenes' edits, the same
   int pixel_samples = 0;                  ///< rays through each pixel; 0: none
   int local_lights = 0, local_light = 0;  ///< as in the request
   std::vector<Camera> cameras;            ///< of a capture, in place of the scenes' paths; empty: none

@@ -265,9 +265,11 @@ void print_json(const Options& options, const Flight& flight, const render::Cont
                 const std::vector<FrameRow>& rows) {
   using Json = nlohmann::ordered_json;
   const Summary s = summary_of(rows);
+  const CastTriangles cast = cast_triangles(flight.scene);
   Json json{{"scene", scene_title(options.scene)},
             {"instances", flight.scene.instances.size()},
             {"triangles", flight.scene.triangle_count()},
+            {"cast_triangles", {{"by_proxies", cast.by_proxies}, {"without", cast.without}}},
             {"context", context.description()},
             {"software", context.software},
             {"filter", render::to_string(options.filter)},
@@ -394,6 +396,7 @@ void print_scene(const Options& options, const Flight& flight, const render::Con
              flight.scene.instances.size(), flight.scene.triangle_count(),
              static_cast<double>(flight.scene.bytes()) / kMebi,
              has_ground(flight.scene) ? "" : "; no ground under it: --ground adds one");
+  if (const std::string text = proxies_text(flight.scene); !text.empty()) fmt::print("proxies:  {}\n", text);
 }
 
 }  // namespace

@@ -224,14 +224,11 @@ std::vector<Option> map_options(Request& request) {
 std::vector<Option> budget_options(Request& request) {
   Options& options = request.options;
   const std::vector<std::string> resolutions{"given", "perceptual"};
-  const std::vector<Option> scene_edits = edit_options(options.edits);
   return {{.name = "--map-memory-mib",
            .target = &options.map_memory_mib,
            .help = "memory for all maps, MiB; larger maps are halved until they fit; 0: no limit",
            .range = {{0.0, 1e9}}},
           max_triangles_option(options.max_triangles),
-          scene_edits[0],
-          scene_edits[1],
           {.name = "--resolution",
            .target = enum_word(options.perceptual_resolution, resolutions),
            .help = "given: by --map-size; perceptual: the smallest maps whose texels the filter hides",
@@ -278,10 +275,11 @@ std::vector<Option> page_options(Request& request) {
   return page_setting_options(request.options.pages);
 }
 
-std::vector<Option> light_and_camera_options(Request& request) {
+std::vector<Option> scene_options(Request& request) {
   std::vector<Option> options = light_options(request.options.light);
   options.push_back(scene_light_option(request.options.light_of_file));
   for (Option& option : camera_options(request.options.camera)) options.push_back(std::move(option));
+  for (Option& option : edit_options(request.options.edits)) options.push_back(std::move(option));
   return options;
 }
 
@@ -299,7 +297,7 @@ namespace gnomon::tool {
 std::function<int()> declare_fly(Arguments& arguments) {
   const auto request = std::make_shared<fly::Request>();
   for (const auto& part : {fly::flight_options, fly::map_options, fly::page_options, fly::budget_options,
-                           fly::filter_options, fly::light_and_camera_options}) {
+                           fly::filter_options, fly::scene_options}) {
     for (Option& option : part(*request)) arguments.options.push_back(std::move(option));
   }
   arguments.footer = fly::prune_footer();

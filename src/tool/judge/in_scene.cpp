@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <stdexcept>
 
+#include "edit_words.hpp"
 #include "float_channel.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/renderer.hpp"
@@ -95,19 +96,31 @@ DrawnErrors drawn(render::Renderer& renderer, const render::PreparedFilter& filt
 
 }  // namespace
 
-std::vector<std::string> judge_context_names() {
-  return offscreen_context_names();
+std::vector<Option> judged_scene_options(JudgedScene& judged) {
+  const auto set = [&judged](const std::string& word) {
+    judged.context = word;
+    return true;
+  };
+  std::vector<Option> options{{.name = "--context",
+                               .target = ParsedWord{set, judged.context},
+                               .help = "OpenGL context that draws SCENE",
+                               .names = offscreen_context_names()}};
+  for (Option& option : edit_options(judged.edits)) {
+    option.needs = "SCENE";
+    options.push_back(std::move(option));
+  }
+  return options;
 }
 
-SceneJudgement judge_in_scene(judge::Capture& capture, const std::string& scene_word,
-                              const std::string& context_word) {
+SceneJudgement judge_in_scene(judge::Capture& capture, const JudgedScene& judged) {
   if (capture.clip_space.handedness == Handedness::left)
     throw std::runtime_error("SCENE: glTF worlds are right-handed, and the capture's is left-handed");
-  check_scene_word("SCENE", scene_word);
+  check_scene_word("SCENE", judged.file);
   const std::vector<std::string> names = offscreen_context_names();
   const auto kind =
-      static_cast<render::ContextKind>(std::find(names.begin(), names.end(), context_word) - names.begin());
-  const Scene scene = load_scene(scene_word);
+      static_cast<render::ContextKind>(std::find(names.begin(), names.end(), judged.context) - names.begin());
+  const Scene scene = load_edited(judged.file, {}, judged.edits);
+  for (const std::string& warning : scene.warnings) warn(warning);
   const trace::Tracer tracer(scene);
   complete(capture, scene, tracer);
   SceneJudgement result;

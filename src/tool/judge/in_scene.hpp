@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "command.hpp"
+#include "gnomon/scene/edit.hpp"
 #include "judge/judge.hpp"
 
 namespace gnomon::tool {
@@ -31,12 +33,16 @@ struct SceneJudgement {
   }
 };
 
+/// The scene that a capture is of, and what draws it.
+struct JudgedScene {
+  std::string file, context = "auto";  ///< builtin:NAME or a file; by its name
+  SceneEdits edits;
+};
 /// Fills in what the capture does not know: boxes, and visible points with their normals.
 /// Then judges, and draws the first frame. Throws std::runtime_error where the scene or a context cannot be
 /// had.
-[[nodiscard]] SceneJudgement judge_in_scene(judge::Capture& capture, const std::string& scene,
-                                            const std::string& context);
-/// What --context may name here.
-[[nodiscard]] std::vector<std::string> judge_context_names();
+[[nodiscard]] SceneJudgement judge_in_scene(judge::Capture& capture, const JudgedScene& scene);
+/// --context, --ground and so on, beside SCENE.
+[[nodiscard]] std::vector<Option> judged_scene_options(JudgedScene& scene);
 
 }  // namespace gnomon::tool

@@ -5,13 +5,13 @@
 
 namespace gnomon::tool {
 
-SceneJudgement judge_in_scene(judge::Capture&, const std::string&, const std::string&) {
+SceneJudgement judge_in_scene(judge::Capture&, const JudgedScene&) {
   throw std::runtime_error(
       "SCENE: this build draws no scenes (GNOMON_SCENE, GNOMON_RENDER and GNOMON_TRACE are needed)");
 }
 
-std::vector<std::string> judge_context_names() {
-  return {"auto"};
+std::vector<Option> judged_scene_options(JudgedScene&) {
+  return {};
 }
 
 }  // namespace gnomon::tool

@@ -20,8 +20,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct JudgeRequest {
-  std::string capture, scene;
-  std::string context = "auto";
+  std::string capture;
+  JudgedScene scene;  ///< no file: none
   double max_m = 0.0, max_findings = -1.0;
   double max_misclassified = 0.0;  ///< percent; 0: no limit
   std::string out;                 ///< folder; empty: no files
@@ -166,10 +166,10 @@ int run_judge(const JudgeRequest& request) {
   judge::Capture capture = judge::load_capture(request.capture);
   if (!request.out.empty()) make_folder("--out", request.out);
   SceneJudgement result;
-  if (request.scene.empty()) {
+  if (request.scene.file.empty()) {
     result.judgement = judge::judge(capture);
   } else {
-    result = judge_in_scene(capture, request.scene, request.context);
+    result = judge_in_scene(capture, request.scene);
   }
   const Json json = judgement_json(capture, result);
   if (request.json) {
@@ -198,7 +198,7 @@ std::function<int()> declare_judge(Arguments& arguments) {
        .required = true,
        .completion = Completion::files},
       {.name = "SCENE",
-       .target = &request->scene,
+       .target = &request->scene.file,
        .help =
            "glTF file or builtin:NAME that the capture is of: adds misclassified pixels, boxes and points",
        .completion = Completion::files},
@@ -207,14 +207,6 @@ std::function<int()> declare_judge(Arguments& arguments) {
        .help = "exit with 1 where any light's maps misclassify more percent of the pixels; 0: no limit",
        .range = {{0.0, 100.0}},
        .needs = "SCENE"},
-      {.name = "--context",
-       .target = ParsedWord{[request](const std::string& word) {
-                              request->context = word;
-                              return true;
-                            },
-                            request->context},
-       .help = "OpenGL context that draws SCENE",
-       .names = judge_context_names()},
       {.name = "--max-m",
        .target = &request->max_m,
        .help = "exit with 1 where the 95th percentile of m of any light is above this; 0: no limit",
@@ -228,6 +220,7 @@ std::function<int()> declare_judge(Arguments& arguments) {
        .help = "write the page (judge.html) and its figures (judge.json) into this folder",
        .completion = Completion::folders},
       {.name = "--json", .target = &request->json, .help = "print the result as one line of JSON"}};
+  for (Option& option : judged_scene_options(request->scene)) arguments.options.push_back(std::move(option));
   arguments.footer =
       "docs/captures.md has the format, a writer for three.js, and what each finding means.\n\n"
       "Exit: 0 within the limits; 1 beyond a limit; 2 bad input, with one line that names the "

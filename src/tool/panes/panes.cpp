@@ -131,7 +131,7 @@ struct PanesStage {
   PanesStage(const PanesRequest& from, const Sweep& of_sweep, const std::string& scene)
       : request(from),
         sweep(of_sweep),
-        view(scene, sweep.light, sweep.camera, limits_of_triangles(sweep.max_triangles)),
+        view(scene, sweep.light, sweep.camera, limits_of_triangles(sweep.max_triangles), sweep.edits),
         parts(split_translucent(view.scene())),
         renderer(parts.opaque),
         tracer(parts.opaque),

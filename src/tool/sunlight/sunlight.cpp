@@ -13,6 +13,7 @@
 
 #include "camera_words.hpp"
 #include "command.hpp"
+#include "edit_words.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/scene/image.hpp"
@@ -36,6 +37,7 @@ struct Request {
   std::string scene = "builtin:city", sun, out, csv;
   double step_s = 900.0;
   CameraWords camera;
+  SceneEdits edits;
   int width = 960, height = 540;  ///< pixels
   std::uint64_t max_triangles = LoadLimits{}.triangles;
   render::ContextKind context = render::ContextKind::automatic;
@@ -257,7 +259,8 @@ int run(const Request& request) {
   if (!request.csv.empty()) check_file_folder("--csv", request.csv);
   watch_interrupts();
   try {
-    const SceneView view(request.scene, {}, request.camera, limits_of_triangles(request.max_triangles));
+    const SceneView view(request.scene, {}, request.camera, limits_of_triangles(request.max_triangles),
+                         request.edits);
     for (const std::string& warning : view.scene().warnings) warn(warning);
     const auto context = render::create_context(request.context);
     const Camera camera = view.camera(0, 1, request.width, request.height);
@@ -318,6 +321,7 @@ std::function<int()> declare_sunlight(Arguments& arguments) {
       max_triangles_option(request->max_triangles),
       context_option(request->context)};
   for (Option& option : camera_options(request->camera)) arguments.options.push_back(std::move(option));
+  for (Option& option : edit_options(request->edits)) arguments.options.push_back(std::move(option));
   arguments.footer =
       "Each pixel's surface sends a ray to each position of the sun, in the middle of its step, from "
       "midnight to\n"

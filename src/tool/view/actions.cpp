@@ -202,7 +202,8 @@ void toggle_freeze(State& state, const Stage* stage) {
     state.frozen.reset();
   } else {
     const Camera& camera = stage->camera();
-    state.frozen = own_eye(state, *stage);
+    (void)own_eye(state, *stage);
+    state.frozen = drawn_eye(*stage);
     state.frozen_sight = {camera.near_depth, camera.far_depth};
   }
 }

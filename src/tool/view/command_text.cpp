@@ -76,6 +76,7 @@ std::string command_text(const State& state) {
   if (state.panes) text += " --panes";
   if (state.edits.ground) text += " --ground";
   if (!state.edits.sections.empty()) text += " --section=" + section_text(state.edits.sections);
+  if (!state.edits.proxies.empty()) text += " --proxies " + quoted(state.edits.proxies);
   add_settings(state.a, text);
   const LightState& light = state.light;
   const LightPlacement none;
@@ -94,6 +95,7 @@ std::string command_text(const State& state) {
             exact(light.point->range);
   if (state.eye)
     text += " --eye=" + point_word(state.eye->position) + " --target=" + point_word(state.eye->target);
+  if (state.height_world > 0.0) text += " --orthographic " + exact(state.height_world);
   if (state.near_depth > 0.0) text += " --near " + exact(state.near_depth);
   if (state.far_depth > 0.0) text += " --far " + exact(state.far_depth);
   if (const Playing& playing = state.playing; !playing.animation.empty()) {

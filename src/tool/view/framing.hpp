@@ -25,4 +25,12 @@ inline void frame(CameraKey& eye, const Box& object, const glm::dvec3& point, do
   eye = {middle - forward * (kRoom * radius / std::sin(half_angle)), middle};
 }
 
+/// By how much an orthographic picture grows so that an object fills it; `half_edge`: half of its smaller
+/// edge, world units. It shrinks by half at an object that is larger.
+[[nodiscard]] inline double framed_share(const Box& object, double half_edge) {
+  constexpr double kRoom = 1.1, kNearer = 0.5;
+  const double share = kRoom * 0.5 * glm::length(object.max - object.min) / half_edge;
+  return share > 0.0 && share < 1.0 ? share : kNearer;
+}
+
 }  // namespace gnomon::tool::view

@@ -151,8 +151,12 @@ void frame_under_cursor(App& app) {
   const Probed probed = probe(*stage->tracer(), stage->side(0).drawn, camera, stage->light(), cursor->x,
                               cursor->y, stage->side(0).page_plan());
   if (!probed.hit) return show_message(app.display, "nothing lies under the cursor", false);
-  const double slope = std::min(camera.right - camera.left, camera.top - camera.bottom) * 0.5;
-  frame(own_eye(app.document.state, *stage), stage->boxes()[probed.instance], probed.point, std::atan(slope));
+  State& state = app.document.state;
+  const Box& object = stage->boxes()[probed.instance];
+  const double edge = std::min(camera.right - camera.left, camera.top - camera.bottom) * 0.5;
+  constexpr double kUsual = 0.5;  // radians: parallel rays have no angle
+  frame(own_eye(state, *stage), object, probed.point, camera.orthographic ? kUsual : std::atan(edge));
+  if (camera.orthographic) state.height_world *= framed_share(object, edge);
 }
 
 void control_keys(App& app, const Presses& pressed) {
@@ -254,7 +258,8 @@ void place_light(LightState& state, const Stage& stage, double pixel_ratio) {
   const CameraAxes axes = camera_axes(camera);
   const auto moved = [&](glm::dvec3& position) {
     const double depth = glm::dot(position - camera.position, axes.forward);
-    const double step = (camera.right - camera.left) / camera.width * depth * pixel_ratio;
+    const double step =
+        (camera.right - camera.left) / camera.width * (camera.orthographic ? 1.0 : depth) * pixel_ratio;
     const double right = static_cast<double>(io.MouseDelta.x) * step,
                  down = static_cast<double>(io.MouseDelta.y) * step;
     position += io.KeyShift ? axes.forward * -down : axes.right * right - axes.up * down;
@@ -294,7 +299,11 @@ void mouse(State& state, const Drawing& drawing, Display& display) {
       (io.MouseDelta.x != 0.0f || io.MouseDelta.y != 0.0f))
     turn(own_eye(state, stage), static_cast<double>(io.MouseDelta.x) * kRadiansPerUnit,
          -static_cast<double>(io.MouseDelta.y) * kRadiansPerUnit);
-  if (over && io.MouseWheel != 0.0f) {
+  if (over && io.MouseWheel != 0.0f && state.height_world > 0.0) {
+    constexpr double kStep = 0.9, kLeast = 1e-30, kMost = 1e30;
+    state.height_world =
+        std::clamp(state.height_world * std::pow(kStep, static_cast<double>(io.MouseWheel)), kLeast, kMost);
+  } else if (over && io.MouseWheel != 0.0f) {
     CameraKey& eye = own_eye(state, stage);
     constexpr double kSteps = 60.0;  // of the wheel, through the scene's depth
     move(eye, glm::normalize(eye.target - eye.position) *

@@ -7,9 +7,11 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+#include <glm/geometric.hpp>
 
 #include "app.hpp"
 #include "camera_words.hpp"
+#include "edit_words.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/scene/load.hpp"
 #include "identifier_word.hpp"
@@ -60,6 +62,23 @@ void drawn_switches(Drawn& drawn) {
   tooltip("boxes of casters: in the colour of the first map that draws them; grey: culled");
 }
 
+void lens_part(State& state, const CameraPath& path) {
+  bool orthographic = state.height_world > 0.0;
+  if (ImGui::Checkbox("orthographic", &orthographic)) {
+    const CameraKey& key = path.keys.front();
+    state.height_world =
+        orthographic ? 2.0 * std::tan(0.5 * path.fov_y_radians) * glm::length(key.target - key.position)
+                     : 0.0;
+  }
+  tooltip("parallel rays, as for a map or an elevation; the wheel changes the picture's height");
+  if (!orthographic) return;
+  constexpr double kStep = 0.01, kMax = 1e30;  // of the height, for each unit of the mouse
+  double height = state.height_world;
+  ImGui::DragScalar("height of the picture", ImGuiDataType_Double, &height,
+                    static_cast<float>(kStep * height), nullptr, nullptr, "%.4g");
+  if (height > 0.0) state.height_world = std::min(height, kMax);
+}
+
 void camera_part(Document& document, const Stage* stage, Display& display) {
   State& state = document.state;
   if (ImGui::Checkbox("fly along the path", &state.motion.camera) && state.motion.camera) state.eye.reset();
@@ -67,6 +86,7 @@ void camera_part(Document& document, const Stage* stage, Display& display) {
   ImGui::DragScalar("path seconds", ImGuiDataType_Double, &state.motion.path_seconds, 0.2f, nullptr, nullptr,
                     "%.3g");
   state.motion.path_seconds = std::clamp(state.motion.path_seconds, 1.0, 3600.0);
+  if (stage != nullptr) lens_part(state, stage->loaded().path);
   double fov = state.fov_y_deg > 0.0 || stage == nullptr ? state.fov_y_deg
                                                          : stage->loaded().path.fov_y_radians * kDegrees;
   constexpr double kNarrow = 5.0, kWide = 150.0;
@@ -80,7 +100,7 @@ void camera_part(Document& document, const Stage* stage, Display& display) {
   ImGui::SameLine();
   if (ImGui::Button("camera of the path")) {
     state.eye.reset();
-    state.fov_y_deg = 0.0;
+    state.fov_y_deg = state.height_world = 0.0;
   }
   if (!state.path.empty() && ImGui::Button("the scene's own path")) {
     state.path.clear();
@@ -419,6 +439,9 @@ void scene_part(App& app) {
   if (ImGui::Checkbox("ground under it", &edited.edits.ground)) set_state(app, edited);
   if (app.drawing.stage != nullptr && !app.drawing.stage->loaded().grounded)
     ImGui::TextWrapped("Nothing lies under this scene that its shadow could fall on.");
+  if (app.drawing.stage != nullptr)
+    if (const std::string text = proxies_text(app.drawing.stage->loaded().scene); !text.empty())
+      ImGui::TextWrapped("%s", text.c_str());
   ImGui::TextWrapped("Or drop a .gltf, .glb, state file or folder of results on the window.");
 }
 

@@ -56,14 +56,7 @@ trace::Ray ray_to_light(const trace::Tracer& tracer, const Light& light, const g
 Probed probe(const trace::Tracer& tracer, const ShadowPlan& plan, const Camera& camera, const Light& light,
              double x, double y, const PagePlan* pages) {
   Probed result;
-  const CameraAxes axes = camera_axes(camera);
-  const double right = camera.left + (camera.right - camera.left) * x / camera.width,
-               up = camera.top + (camera.bottom - camera.top) * y / camera.height;
-  trace::Ray eye;
-  eye.origin = camera.position;
-  eye.direction = axes.forward + axes.right * right + axes.up * up;
-  eye.begin = camera.near_depth;
-  eye.end = camera.far_depth;
+  const trace::Ray eye = trace::eye_ray(camera, camera_axes(camera), x / camera.width, y / camera.height);
   const trace::Hit hit = tracer.first_hit(eye);
   if (hit.triangle == trace::kNoTriangle) return result;
   result.hit = true;

@@ -120,6 +120,7 @@ LightState light_state(const SceneLight& light) {
 void take_camera(const CameraPath& path, State& state) noexcept {
   state.eye = path.keys.front();
   state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
+  state.height_world = path.height_world;
   state.near_depth = path.near_depth;
   state.far_depth = path.far_depth;
 }
@@ -137,46 +138,42 @@ CameraPath path_of(const State& state, const CameraPath& scenes) {
     path.closed = false;
   }
   if (state.fov_y_deg > 0.0) path.fov_y_radians = state.fov_y_deg * (std::numbers::pi / 180.0);
+  path.height_world = state.height_world;
   if (state.near_depth > 0.0) path.near_depth = state.near_depth;
   if (state.far_depth > 0.0) path.far_depth = state.far_depth;
   return path;
 }
 
-namespace {
-
-/// The path's camera at another place.
-Camera camera_at(const State& state, const CameraKey& key, const CameraPath& scenes, int width, int height) {
-  Camera camera = path_of(state, scenes).at(state.path_time, width, height);
-  camera.position = key.position;
-  camera.forward = key.target - key.position;
-  return camera;
-}
-
-}  // namespace
-
 Camera eye_camera(const State& state, const CameraPath& scenes, std::span<const Box> boxes, int width,
                   int height) {
-  if (!state.eye) return path_of(state, scenes).at(state.path_time, width, height);
-  Camera camera = camera_at(state, *state.eye, scenes, width, height);
-  const Sight sight = sight_from(state.eye->position, boxes);
-  if (!(state.near_depth > 0.0)) camera.near_depth = sight.near_depth;
-  if (!(state.far_depth > 0.0)) camera.far_depth = sight.far_depth;
-  if (camera.near_depth < camera.far_depth) return camera;
-  // One is given, and the other lies on its wrong side.
-  constexpr double kApart = 1000.0;
-  if (state.near_depth > 0.0)
-    camera.far_depth = camera.near_depth * kApart;
-  else
-    camera.near_depth = camera.far_depth / kApart;
-  return camera;
+  CameraPath path = path_of(state, scenes);
+  if (state.eye) {
+    path.keys = {*state.eye};
+    const Sight sight = sight_from(state.eye->position, boxes);
+    if (!(state.near_depth > 0.0)) path.near_depth = sight.near_depth;
+    if (!(state.far_depth > 0.0)) path.far_depth = sight.far_depth;
+  }
+  const bool bounded = state.near_depth > 0.0 || state.far_depth > 0.0;
+  if (path.height_world > 0.0 && !bounded) see_all(path, boxes);
+  if (!(path.near_depth < path.far_depth)) {
+    // One is given, and the other lies on its wrong side.
+    constexpr double kApart = 1000.0;
+    if (state.near_depth > 0.0)
+      path.far_depth = path.near_depth * kApart;
+    else
+      path.near_depth = path.far_depth / kApart;
+  }
+  return path.at(state.path_time, width, height);
 }
 
 Camera frozen_camera(const State& state, const CameraPath& scenes, int width, int height) {
-  Camera camera = camera_at(state, *state.frozen, scenes, width, height);
-  if (!(state.frozen_sight.near_depth > 0.0)) return camera;
-  camera.near_depth = state.frozen_sight.near_depth;
-  camera.far_depth = state.frozen_sight.far_depth;
-  return camera;
+  CameraPath path = path_of(state, scenes);
+  path.keys = {*state.frozen};
+  if (state.frozen_sight.near_depth > 0.0) {
+    path.near_depth = state.frozen_sight.near_depth;
+    path.far_depth = state.frozen_sight.far_depth;
+  }
+  return path.at(state.path_time, width, height);
 }
 
 std::string filter_text(const Settings& settings) {

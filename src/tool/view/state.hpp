@@ -110,6 +110,7 @@ struct State {
   std::vector<CameraKey> path;   ///< recorded; empty: the scene's path
   double path_time = 0.5;        ///< 0..1
   double fov_y_deg = 0.0;        ///< 0: of the scene's path
+  double height_world = 0.0;     ///< of an orthographic picture, from bottom to top; 0: perspective
   /// Where sight begins and ends, world units. 0: of the scene's path, or for an eye of its own as
   /// sight_from().
   double near_depth = 0.0, far_depth = 0.0;
@@ -134,7 +135,7 @@ struct State {
 [[nodiscard]] LightState light_state(const Light& light) noexcept;
 /// The same of a light of the scene's file. Throws std::runtime_error for a sun that shines from below.
 [[nodiscard]] LightState light_state(const SceneLight& light);
-/// The eye, its field of view and its depths become those of the path's first key.
+/// The eye, its field of view or height, and its depths become those of the path's first key.
 void take_camera(const CameraPath& path, State& state) noexcept;
 /// Turns the sun by `seconds` of its motion; its azimuth stays in [-180, 180) degrees.
 void turn_sun(State& state, double seconds) noexcept;

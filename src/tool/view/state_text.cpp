@@ -389,6 +389,7 @@ std::string state_text(const State& state) {
   if (state.edits.ground) json["ground"] = true;
   for (const SectionPlane& plane : state.edits.sections)
     json["section"].push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.distance});
+  if (!state.edits.proxies.empty()) json["proxies"] = state.edits.proxies;
   if (state.eye) json["eye"] = key_json(*state.eye);
   if (state.frozen) json["frozen"] = key_json(*state.frozen);
   if (state.frozen && state.frozen_sight.near_depth > 0.0) {
@@ -397,6 +398,7 @@ std::string state_text(const State& state) {
   }
   for (const CameraKey& key : state.path) json["path"].push_back(key_json(key));
   if (state.fov_y_deg > 0.0) json["fov_y_deg"] = state.fov_y_deg;
+  if (state.height_world > 0.0) json["height_world"] = state.height_world;
   if (state.near_depth > 0.0) json["near"] = state.near_depth;
   if (state.far_depth > 0.0) json["far"] = state.far_depth;
   json["light"] = light_json(state.light);
@@ -444,11 +446,13 @@ State read_state(std::string_view text) {
   reader.read("panes", state.panes);
   reader.read("ground", state.edits.ground);
   state.edits.sections = read_sections(reader, "section");
+  reader.read("proxies", state.edits.proxies);
   reader.read("path_time", state.path_time, 0.0, 1.0);
   state.eye = read_key(reader, "eye");
   state.frozen = read_key(reader, "frozen");
   state.path = read_keys(reader, "path");
   reader.read("fov_y_deg", state.fov_y_deg, 1.0, 170.0);
+  reader.read("height_world", state.height_world, 0.0, 1e30);
   reader.read("near", state.near_depth, 0.0, 1e30);
   reader.read("far", state.far_depth, 0.0, 1e30);
   if (state.near_depth > 0.0 && state.far_depth > 0.0 && !(state.near_depth < state.far_depth))

@@ -18,8 +18,9 @@ std::string text_of(const glm::dvec3& v) {
 /// All that the exact shadow depends on besides the scene.
 std::string picture_of(const Camera& camera, const Light& light) {
   return text_of(camera.position) + text_of(camera.forward) +
-         fmt::format("{} {} {} {} {} {} {} {}", camera.left, camera.right, camera.bottom, camera.top,
-                     camera.near_depth, camera.far_depth, camera.width, camera.height) +
+         fmt::format("{} {} {} {} {} {} {} {} {}", camera.orthographic, camera.left, camera.right,
+                     camera.bottom, camera.top, camera.near_depth, camera.far_depth, camera.width,
+                     camera.height) +
          light_text(light);
 }
 

@@ -73,9 +73,11 @@ void resolve_camera(const CameraWords& words, State& state) {
     state.path = path.keys;
     if (path.closed) state.path.push_back(path.keys.front());
     state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
+    state.height_world = path.height_world;
     state.near_depth = path.near_depth;
     state.far_depth = path.far_depth;
   }
+  if (words.height_world > 0.0) state.height_world = words.height_world;
   if (words.near_depth > 0.0) state.near_depth = words.near_depth;
   if (words.far_depth > 0.0) state.far_depth = words.far_depth;
   if (words.eye) state.eye = CameraKey{*words.eye, *words.target};

@@ -1,8 +1,10 @@
 // Does `gnomon compare` measure from where it is told to, and do its rows say so?
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 
 #include "small_sweep.hpp"
 
@@ -52,6 +54,91 @@ TEST(Compare, measures_from_an_eye_or_a_path_of_its_own_and_says_so_in_each_row)
     EXPECT_GT(*row.expected_wrong, 0.4 * wrong) << row.technique.name();
     EXPECT_LT(*row.expected_wrong, 1.5 * wrong) << row.technique.name();
   }
+}
+
+TEST(Compare, measures_edited_scenes_and_orthographic_pictures_and_says_so_in_each_row) {
+  const TemporaryFolder folder;
+  std::vector<report::Row> rows;
+  const auto measure = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words{"compare",     "builtin:hangar",
+                                   "--warps",     "none",
+                                   "--filters",   "hard",
+                                   "--frames",    "1",
+                                   "--rounds",    "1",
+                                   "--map-sizes", "512",
+                                   "--size",      "160x90",
+                                   "--out",       (folder.path() / "out").string(),
+                                   "--resume"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished finished = run_gnomon(words);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    rows = report::read_rows(folder.path() / "out");
+    return finished.err;
+  };
+  (void)measure({"--cascades", "1"});
+  const auto exact_files = [&] {
+    return std::distance(fs::directory_iterator(folder.path() / "exact"), fs::directory_iterator());
+  };
+  const auto plain_files = exact_files();
+  // Another scene is another measurement, and its exact shadows are others; the same again is none.
+  for (int i = 0; i < 2; ++i) (void)measure({"--cascades", "1", "--section", "0,1,0,3"});
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_GT(exact_files(), plain_files);
+  (void)measure({"--cascades", "1", "--ground"});
+  (void)measure({"--cascades", "1", "--orthographic", "30"});
+  ASSERT_EQ(rows.size(), 4u);
+  EXPECT_EQ(rows[0].edits, "");
+  EXPECT_EQ(rows[1].edits, "section 0,1,0,3");
+  EXPECT_EQ(rows[2].edits, "ground");
+  EXPECT_EQ(rows[3].camera, "orthographic 30");
+  EXPECT_NE(rows[0].errors.pixels, rows[1].errors.pixels);
+  EXPECT_NE(rows[0].errors.pixels, rows[3].errors.pixels);
+  for (const report::Row& row : rows) {
+    EXPECT_GT(row.errors.pixels, 1000u);
+    // The hangar's own ground shadows one that is added.
+    if (row.edits != "ground") {
+      EXPECT_LT(row.errors.false_lit + row.errors.false_shadow, 0.1) << row.edits << row.camera;
+    }
+  }
+  // The report keeps them apart.
+  EXPECT_NE(content_of(folder.path() / "out" / "summary.csv").find("builtin:hangar, ground"),
+            std::string::npos);
+}
+
+TEST(Compare, measures_what_proxies_cost_against_rays_of_the_originals) {
+  const TemporaryFolder folder;
+  const auto measure = [&](const char* out, const std::vector<std::string>& more) {
+    std::vector<std::string> words{"compare",     "builtin:hangar",
+                                   "--warps",     "none",
+                                   "--filters",   "hard",
+                                   "--frames",    "1",
+                                   "--rounds",    "1",
+                                   "--size",      "160x90",
+                                   "--cascades",  "1",
+                                   "--map-sizes", "1024",
+                                   "--out",       (folder.path() / out).string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return run_gnomon(words);
+  };
+  // The terrain is no part of the hangar.
+  const Finished unmatched = measure("none", {"--proxies", "builtin:terrain"});
+  EXPECT_EQ(unmatched.exit_code, 2);
+  EXPECT_NE(unmatched.err.find("builtin:terrain: no mesh is a shadow proxy of a node"), std::string::npos)
+      << unmatched.err;
+  EXPECT_EQ(std::count(unmatched.err.begin(), unmatched.err.end(), '\n'), 1);
+  EXPECT_FALSE(fs::exists(folder.path() / "none"));
+  // Its own meshes are proxies that cost nothing.
+  const Finished own = measure("own", {"--proxies", "builtin:hangar", "--write-masks"});
+  ASSERT_EQ(own.exit_code, 0) << own.err;
+  const std::string masks = (folder.path() / "own" / "masks" / "technique0").string();
+  const Finished judged = measure("judged", {"--entry", "proxies=" + masks});
+  ASSERT_EQ(judged.exit_code, 0) << judged.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path() / "judged");
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(report::read_rows(folder.path() / "own")[0].edits, "proxies builtin:hangar 0000000000000000");
+  EXPECT_GT(rows[1].errors.pixels, 1000u);
+  EXPECT_NEAR(rows[0].errors.false_lit, rows[1].errors.false_lit, 0.002);
+  EXPECT_NEAR(rows[0].errors.false_shadow, rows[1].errors.false_shadow, 0.002);
 }
 
 TEST(Compare, refuses_cameras_that_do_not_go_together) {

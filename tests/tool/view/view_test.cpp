@@ -32,10 +32,11 @@ State unusual() {
   State state = hangar();
   state.eye = CameraKey{{1.5, 2.25, 3.0}, {-4.0, 1.0 / 3.0, 0.1}};
   state.panes = true;
-  state.edits = {true, {{{0, 1, 0}, 2.5}, {{-1, 0, 0.25}, 1}}};
+  state.edits = {true, {{{0, 1, 0}, 2.5}, {{-1, 0, 0.25}, 1}}, "simple.glb"};
   state.frozen = CameraKey{{1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}};
   state.path = {{{0.0, 1.0, 2.0}, {3.0, 4.0, 5.0}}, {{1.0, 1.0, 2.5}, {3.0, 4.0, 5.0}}};
   state.fov_y_deg = 41.5;
+  state.height_world = 12.25;
   state.frozen_sight = {0.5, 88.0};
   state.near_depth = 0.25;
   state.far_depth = 77.0;
@@ -94,6 +95,7 @@ TEST(ViewState, reads_back_what_it_wrote) {
   EXPECT_EQ(back.b.map_passes, render::MapPasses::layered);
   EXPECT_FALSE(back.a.identifiers);
   EXPECT_EQ(back.b.pages, unusual().b.pages);
+  EXPECT_EQ(back.height_world, 12.25);
   EXPECT_EQ(back.light.spot->range, 55.5);
   ASSERT_EQ(back.path.size(), 2u);
   EXPECT_EQ(back.path[1].position, glm::dvec3(1.0, 1.0, 2.5));
@@ -168,9 +170,12 @@ TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
   EXPECT_NE(command.find(" --layer back"), std::string::npos) << command;
   EXPECT_NE(command.find("--eye=1,2,3 --target=0,0,-1 --view heat"), std::string::npos) << command;
   state = hangar();
-  state.edits = {true, {{{-1, 0, 0}, 2.5}, {{0, 1, 0}, 3}}};
-  EXPECT_EQ(command_text(state),
-            "gnomon view builtin:hangar --ground --section=-1,0,0,2.5/0,1,0,3 --map-size 256 --filter pcf");
+  state.edits = {true, {{{-1, 0, 0}, 2.5}, {{0, 1, 0}, 3}}, "low.glb"};
+  state.height_world = 30.0;
+  EXPECT_EQ(
+      command_text(state),
+      "gnomon view builtin:hangar --ground --section=-1,0,0,2.5/0,1,0,3 --proxies low.glb --map-size 256 "
+      "--filter pcf --orthographic 30");
   state = hangar();
   state.a.linear_depth = true;
   state.a.map_passes = render::MapPasses::each;
@@ -194,6 +199,14 @@ TEST(ViewFraming, puts_an_object_in_the_middle_as_large_as_the_picture_holds) {
   const double angle = std::asin(radius / glm::length(eye.target - eye.position));
   EXPECT_LT(angle, 0.5);
   EXPECT_GT(angle, 0.4);
+}
+
+TEST(ViewFraming, of_an_orthographic_picture_is_its_height) {
+  const Box crate{{4, 0, -1}, {5, 2, 0}};
+  const double radius = 0.5 * std::sqrt(6.0);
+  EXPECT_NEAR(20.0 * framed_share(crate, 20.0), 1.1 * radius, 1e-12);
+  EXPECT_EQ(framed_share(crate, 1.0), 0.5) << "it is larger than the picture";
+  EXPECT_EQ(framed_share({{1, 1, 1}, {1, 1, 1}}, 1.0), 0.5);
 }
 
 TEST(ViewFraming, comes_half_of_the_way_to_what_surrounds_the_eye_or_is_far_larger) {
@@ -232,6 +245,28 @@ TEST(ViewPicture, of_the_scene_is_the_renderers) {
   renderer.draw(make_plan(camera, light, {boxes, boxes}, plan_options_of(state.a)), camera,
                 renderer.prepare(state.a.filter), frame);
   EXPECT_EQ(share_equal(image, renderer.image(), 0, kWidth), 1.0);
+}
+
+TEST(ViewPicture, that_is_orthographic_agrees_with_exact_rays_and_so_does_its_probe) {
+  State state = hangar();
+  state.height_world = 40.0;
+  state.view = View::misclassified;
+  state.a.plan.resolution.max_size = 2048;
+  state.a.filter = render::parse_filter("hard").settings;
+  (void)picture(state);
+  const Camera& camera = stage().camera();
+  ASSERT_TRUE(camera.orthographic);
+  EXPECT_DOUBLE_EQ(camera.top - camera.bottom, 40.0);
+  const std::optional<report::MaskErrors> errors = stage().side(0).errors;
+  ASSERT_TRUE(errors);
+  EXPECT_GT(errors->pixels, 1000u);
+  EXPECT_LT(errors->false_lit + errors->false_shadow, 0.05);
+  const trace::Tracer* const tracer = stage().tracer();
+  ASSERT_NE(tracer, nullptr);
+  const Probed left = probe(*tracer, stage().side(0).drawn, camera, stage().light(), 0.0, 60.0),
+               right = probe(*tracer, stage().side(0).drawn, camera, stage().light(), kWidth, 60.0);
+  ASSERT_TRUE(left.hit && right.hit);
+  EXPECT_NEAR(glm::dot(right.point - left.point, camera_axes(camera).right), 40.0 * kWidth / kHeight, 1e-6);
 }
 
 TEST(ViewPicture, by_identifiers_is_the_renderers) {
