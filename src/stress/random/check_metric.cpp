@@ -120,51 +120,64 @@ struct Sampled {
   std::size_t maybe = 0;   ///< points that may count or not, or whose m is rounding
 };
 
-Sampled sample_grid(const Case& input, const ShadowPlan& plan, const View& view, const LightAt& light,
-                    const std::vector<RelativeMap>& maps, const MeasureOptions& grid) {
+Sampled sample_grid(const Case& input, const std::vector<Box>& receivers, const ShadowPlan& plan,
+                    const View& view, const LightAt& light, const std::vector<RelativeMap>& maps,
+                    const MeasureOptions& grid) {
   Sampled out;
   const Camera& c = input.camera;
   const Real n = c.near_depth, f = c.far_depth;
+  std::vector<Real> depths;
   for (int k = 0; k < grid.depths; ++k) {
-    const Real share = (k + 0.5L) / grid.depths,
-               depth = n > 0.0L ? n * std::pow(f / n, share) : n + (f - n) * share;
-    for (int i = 0; i < grid.columns * grid.rows; ++i) {
-      const Real x = c.left + (Real(c.right) - c.left) * (i % grid.columns + 0.5L) / grid.columns;
-      const Real y =
-          c.bottom + (Real(c.top) - c.bottom) * (static_cast<Real>(i / grid.columns) + 0.5L) / grid.rows;
-      const Real scale = c.orthographic ? 1.0L : depth;
-      const Real3 p = view.right * (x * scale) + view.up * (y * scale) + view.forward * depth;
+    const Real share = (k + 0.5L) / grid.depths;
+    depths.push_back(n > 0.0L ? n * std::pow(f / n, share) : n + (f - n) * share);
+  }
+  const auto count = [&](const Real3& p, Real depth, bool in) {
+    const glm::dvec3 world(p + view.eye);
+    const int served = map_serving(plan, world, static_cast<double>(depth));
+    // Next to the border of two maps rounding decides which of them it is.
+    constexpr double kBorder = 1e-9;
+    const auto deeper = [&](double by) {
+      return map_serving(plan, world, static_cast<double>(depth) * (1.0 + by));
+    };
+    const bool border = plan.selection == MapSelection::view_depth &&
+                        (deeper(kBorder) != served || deeper(-kBorder) != served);
+    if (served < 0 && !border) return;
+    if (border) {
+      ++out.maybe;
+      return;
+    }
+    const auto at = static_cast<std::size_t>(served);
+    const Real3 rounded = Real3(world) - view.eye;
+    const ExactError m = exact_error(view, light, maps[at], plan.map[at], rounded);
+    if (in && m.rounding < kUseful && m.longest > 1e-11L && m.longest < 1e11L)
+      out.sure.push_back(m.longest);
+    else
+      ++out.maybe;
+  };
+  for (int i = 0; i < grid.columns * grid.rows; ++i) {
+    const Real x = c.left + (Real(c.right) - c.left) * (i % grid.columns + 0.5L) / grid.columns;
+    const Real y =
+        c.bottom + (Real(c.top) - c.bottom) * (static_cast<Real>(i / grid.columns) + 0.5L) / grid.rows;
+    const Real3 aside = view.right * x + view.up * y;
+    const Real3 start = c.orthographic ? aside : Real3{},
+                way = c.orthographic ? view.forward : view.forward + aside;
+    for (const Real depth : depths) {
+      const Real3 p = start + way * depth;
       const Real room = 1e-11L * (length(p) + length(view.eye));
       bool in = false, near = false;
-      for (const Box& box : input.receivers) {
-        if (box.empty()) continue;
+      for (const Box& box : receivers) {
         const Real3 low = p - (Real3(box.min) - view.eye), high = (Real3(box.max) - view.eye) - p;
         const Real least = std::min({low.x, low.y, low.z, high.x, high.y, high.z});
         in = in || least > room;
         near = near || least >= -room;
       }
-      if (!near) continue;
-      const glm::dvec3 world(p + view.eye);
-      const int served = map_serving(plan, world, static_cast<double>(depth));
-      // Next to the border of two maps rounding decides which of them it is.
-      constexpr double kBorder = 1e-9;
-      const auto deeper = [&](double by) {
-        return map_serving(plan, world, static_cast<double>(depth) * (1.0 + by));
-      };
-      const bool border = plan.selection == MapSelection::view_depth &&
-                          (deeper(kBorder) != served || deeper(-kBorder) != served);
-      if (served < 0 && !border) continue;
-      if (border) {
-        ++out.maybe;
-        continue;
-      }
-      const auto at = static_cast<std::size_t>(served);
-      const Real3 rounded = Real3(world) - view.eye;
-      const ExactError m = exact_error(view, light, maps[at], plan.map[at], rounded);
-      if (in && m.rounding < kUseful && m.longest > 1e-11L && m.longest < 1e11L)
-        out.sure.push_back(m.longest);
-      else
-        ++out.maybe;
+      if (near) count(p, depth, in);
+    }
+    const ThinHit thin = thin_hit(receivers, view, start, way, depths, {n, f});
+    if (thin.doubt) {
+      ++out.maybe;
+    } else if (thin.met) {
+      count(start + way * thin.depth, thin.depth, true);
     }
   }
   std::sort(out.sure.begin(), out.sure.end());
@@ -176,7 +189,7 @@ void check_measure(const Case& input, const ShadowPlan& plan, const View& view, 
   constexpr MeasureOptions kGrid{6, 6, 24};
   constexpr std::size_t kMaxReceivers = 40;
   if (input.receivers.size() > kMaxReceivers) return;
-  // Flat ones count at points that are not the grid's.
+  // Where a flat one is met, rounding decides whether a depth is in it.
   std::vector<Box> receivers = input.receivers;
   std::erase_if(receivers, [](const Box& box) {
     return box.empty() || box.min.x == box.max.x || box.min.y == box.max.y || box.min.z == box.max.z;
@@ -184,7 +197,7 @@ void check_measure(const Case& input, const ShadowPlan& plan, const View& view, 
   const AliasingStats stats = quiet("measure", report, [&] {
     return measure(plan, input.camera, {input.casters, receivers}, kGrid);
   });
-  const Sampled exact = sample_grid(input, plan, view, light, maps, kGrid);
+  const Sampled exact = sample_grid(input, receivers, plan, view, light, maps, kGrid);
   const std::size_t sure = exact.sure.size();
   // A twentieth of the points in doubt moves no percentile out of what is allowed below.
   if (sure < 40 || exact.maybe * 20 > sure) return;

@@ -13,27 +13,11 @@
 namespace gnomon::stress {
 namespace {
 
-constexpr Real kNoBound = std::numeric_limits<Real>::infinity();
 // Relative to the quantity at hand. A few hundred thousand times a double's rounding, a hundredth of a
 // float's: nothing that is drawn tells such points apart.
 constexpr Real kClear = 1e-9L;
 // Of a position or a distance from one: about a thousand roundings of a double.
 constexpr Real kPlaceRounding = 1e-11L;
-
-struct Interval {
-  Real low = -kNoBound, high = kNoBound;
-  [[nodiscard]] bool empty() const { return !(low <= high); }
-  /// Keeps what has slope t + offset >= 0.
-  void keep(Real slope, Real offset) {
-    if (slope == 0.0L) {
-      if (offset < 0.0L) high = -kNoBound;
-    } else if (slope > 0.0L) {
-      low = std::max(low, -offset / slope);
-    } else {
-      high = std::min(high, -offset / slope);
-    }
-  }
-};
 
 /// Planes of the frustum as functions that are >= 0 inside.
 struct Sides {
@@ -269,6 +253,32 @@ RayHit clear_hit(const View& view, const Box& box, const Real3& p, const Real3& 
   if (!met) return {};
   const Real at = 0.5L * (flat.low + flat.high);
   return {true, at, at};
+}
+
+ThinHit thin_hit(const std::vector<Box>& receivers, const View& view, const Real3& start, const Real3& way,
+                 const std::vector<Real>& depths, const Interval& range) {
+  Real nearest = kNoBound, nearest_doubt = kNoBound;
+  for (const Box& box : receivers) {
+    const Real3 low = Real3(box.min) - view.eye - start, high = Real3(box.max) - view.eye - start;
+    const Real room = kPlaceRounding * (length(low) + length(high) + length(view.eye));
+    // Of the box less what may round, and more.
+    Interval inner = range, outer = range;
+    for (int axis = 0; axis < 3; ++axis) {
+      inner.keep(way[axis], -low[axis] - room);
+      inner.keep(-way[axis], high[axis] - room);
+      outer.keep(way[axis], -low[axis] + room);
+      outer.keep(-way[axis], high[axis] + room);
+    }
+    const auto holds_any = [&](const Interval& part) {
+      return std::any_of(depths.begin(), depths.end(),
+                         [&](Real d) { return d >= part.low && d <= part.high; });
+    };
+    if (outer.empty() || (!inner.empty() && holds_any(inner))) continue;
+    const bool sure = !inner.empty() && !holds_any(outer) && inner.low - outer.low < kClear * inner.low;
+    Real& least = sure ? nearest : nearest_doubt;
+    least = std::min(least, outer.low);
+  }
+  return {nearest < kNoBound, nearest_doubt < kNoBound && nearest_doubt <= nearest, nearest};
 }
 
 }  // namespace gnomon::stress

@@ -2,6 +2,8 @@
 // left out.
 #pragma once
 
+#include <algorithm>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -11,6 +13,25 @@
 #include "gnomon/light.hpp"
 
 namespace gnomon::stress {
+
+/// Of an interval without an end.
+inline constexpr Real kNoBound = std::numeric_limits<Real>::infinity();
+
+/// The numbers between two bounds.
+struct Interval {
+  Real low = -kNoBound, high = kNoBound;
+  [[nodiscard]] bool empty() const { return !(low <= high); }
+  /// Keeps what has slope t + offset >= 0.
+  void keep(Real slope, Real offset) {
+    if (slope == 0.0L) {
+      if (offset < 0.0L) high = -kNoBound;
+    } else if (slope > 0.0L) {
+      low = std::max(low, -offset / slope);
+    } else {
+      high = std::min(high, -offset / slope);
+    }
+  }
+};
 
 /// The camera in Real; everything is relative to its position.
 struct View {
@@ -66,5 +87,15 @@ struct RayHit {
 [[nodiscard]] inline Real largest(const Real3& v) {
   return std::max(std::abs(v.x), std::max(std::abs(v.y), std::abs(v.z)));
 }
+
+/// Where a ray enters the nearest box that it passes between two depths of the grid.
+struct ThinHit {
+  bool met = false, doubt = false;
+  Real depth = 0.0L;
+};
+
+/// `doubt`: rounding decides whether there is one. `range`: the depths in view.
+[[nodiscard]] ThinHit thin_hit(const std::vector<Box>& receivers, const View& view, const Real3& start,
+                               const Real3& way, const std::vector<Real>& depths, const Interval& range);
 
 }  // namespace gnomon::stress
