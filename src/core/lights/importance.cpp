@@ -19,7 +19,7 @@
 #include "gnomon/measure.hpp"
 #include "lanes/elementary.hpp"
 #include "map/size.hpp"
-#include "plan/local.hpp"
+#include "plan/spot_maps.hpp"
 #include "resolve/resolve.hpp"
 
 namespace gnomon {

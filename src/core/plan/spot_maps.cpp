@@ -14,7 +14,6 @@
 #include "geometry/vector.hpp"
 #include "gnomon/measure.hpp"
 #include "lanes/elementary.hpp"
-#include "plan/local.hpp"
 
 namespace gnomon {
 namespace {

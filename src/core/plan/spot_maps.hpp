@@ -6,6 +6,10 @@
 
 namespace gnomon {
 
+/// True where the faces of a cube show a spot's cone without a budget, false where one map does. The view has
+/// no say: what a camera sees must not switch maps of a fixed size, and plan_lights shares budgets by it.
+[[nodiscard]] bool shown_by_faces(const SpotLight& spot, const PlanOptions& options) noexcept;
+
 /// How the directions of a local light are divided among its maps.
 enum class LocalMaps : std::uint8_t { cone, cube, tetrahedron };
 
