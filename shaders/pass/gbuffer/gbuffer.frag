@@ -20,6 +20,9 @@ void main() {
   vec3 geometric = cross(dFdx(position), dFdy(position));
   vec4 color = texture(color_image, texcoord) * base_color;
   if (is_cut_out(texcoord)) discard;
+  // A triangle without area in the picture may have pixels, whose position is no number.
+  const float kLargest = 3.4e38;
+  if (!all(lessThanEqual(abs(position), vec3(kLargest)))) discard;
 
   vec3 ray = frame.forward.w > 0.5 ? frame.forward.xyz : position;
   float size = length(geometric);
