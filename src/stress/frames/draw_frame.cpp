@@ -9,6 +9,7 @@
 #include "dice.hpp"
 #include "frame_scene.hpp"
 #include "gnomon/pages.hpp"
+#include "gnomon/render/depth_layer.hpp"
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/page_filter.hpp"
 

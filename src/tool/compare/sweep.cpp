@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "edit_words.hpp"
 #include "gnomon/render/probe.hpp"
 #include "identifier_word.hpp"
 #include "page_setting.hpp"

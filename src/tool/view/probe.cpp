@@ -8,6 +8,7 @@
 
 #include "base/travel.hpp"
 #include "gnomon/extend/shape.hpp"
+#include "gnomon/trace/reference.hpp"
 
 namespace gnomon::tool::view {
 namespace {
