@@ -174,7 +174,8 @@ struct Quadrant {
   if (x != x) return x;
   const double size = x < 0.0 ? -x : x;
   const bool steep = size > 1.0;
-  const double slope = steep ? 1.0 / size : size;
+  // Compilers may divide before they choose: never by 0.
+  const double slope = steep ? 1.0 / (size + (steep ? 0.0 : 1.0)) : size;
   const double eighth = std::floor(slope * 8.0 + 0.5);
   const double at = eighth * 0.125, rest = (slope - at) / (1.0 + slope * at);
   const double angle =
@@ -187,7 +188,10 @@ struct Quadrant {
   constexpr double kPi = 3.141592653589793;
   if (x == 0.0 && y == 0.0) return 0.0;
   const double height = y < 0.0 ? -y : y, width = x < 0.0 ? -x : x;
-  const double first = height > width ? 0.5 * kPi - atan(width / height) : atan(height / width);
+  // One division: of two, compilers may do both before they choose, and by 0.
+  const bool steep = height > width;
+  const double angle = atan((steep ? width : height) / (steep ? height : width));
+  const double first = steep ? 0.5 * kPi - angle : angle;
   const double upper = x < 0.0 ? kPi - first : first;
   return y < 0.0 ? -upper : upper;
 }
