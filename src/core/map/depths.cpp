@@ -145,7 +145,9 @@ double caster_height(const CasterReach& reach, const LightFrame& frame, const Fi
   faces.at.fill(reach.top);
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(up[axis]) > kSteepestFace)) continue;
-    const double inverse = 1.0 / up[axis];
+    // Compilers divide before they choose, too (lanes/wide.hpp). This changes no bit of what is steep enough.
+    constexpr double kNothing = 1e-280;
+    const double inverse = 1.0 / (up[axis] + kNothing);
     const auto k = static_cast<std::size_t>(axis) + 1;
     faces.at[k] = corner[axis] * inverse;
     faces.slope_x[k] = -frame.x[axis] * inverse;
