@@ -50,7 +50,7 @@ fi
 clang=$(command -v clang++ || command -v clang++-14 || true)
 if [[ -n $clang ]]; then
   build "clang++ -O0" "$clang" -O0
-  build "clang++ -O3" "$clang" -O3
+  build "clang++ -O3" "$clang" -O3 -fno-slp-vectorize  # as src/core/CMakeLists.txt has it
 else
   echo "no clang++ here: not compared"
 fi
