@@ -8,25 +8,24 @@
 
 namespace gnomon::tool {
 
-namespace {
+Progress::Progress(std::string label, long long total, double most_seconds)
+    : label_(std::move(label)),
+      total_(total),
+      most_seconds_(most_seconds),
+      begin_(Clock::now()),
+      next_draw_(begin_ + std::chrono::seconds(1)),
+      on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
-/// As long again as it took so far, by the share that is left; nothing before the first steps tell.
-std::string time_left(double share, double seconds_so_far) {
+/// As long again as it took so far, by the share that is left.
+std::string Progress::time_left(double share, double seconds_so_far) const {
   if (share <= 0.0) return {};
-  const auto seconds = static_cast<long long>(seconds_so_far * (1.0 - share) / share + 0.5);
+  double left = seconds_so_far * (1.0 - share) / share;
+  if (most_seconds_ > 0.0) left = std::min(left, std::max(most_seconds_ - seconds_so_far, 0.0));
+  const auto seconds = static_cast<long long>(left + 0.5);
   char text[32];
   std::snprintf(text, sizeof text, ", %lld:%02lld left", seconds / 60, seconds % 60);
   return text;
 }
-
-}  // namespace
-
-Progress::Progress(std::string label, long long total)
-    : label_(std::move(label)),
-      total_(total),
-      begin_(Clock::now()),
-      next_draw_(begin_ + std::chrono::seconds(1)),
-      on_terminal_(isatty(STDERR_FILENO) == 1) {}
 
 /// A log of hours has some fifty lines.
 void Progress::write_line(long long done, Clock::time_point now) {

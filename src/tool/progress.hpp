@@ -9,8 +9,9 @@ namespace gnomon::tool {
 
 class Progress {
  public:
-  /// `total`: steps in all; 0 where nobody knows, then only the count is shown.
-  Progress(std::string label, long long total);
+  /// `total`: steps in all; 0 where nobody knows, then only the count is shown. `most_seconds`: what it may
+  /// take in all, for work that ends unfinished then; 0: as long as it takes.
+  Progress(std::string label, long long total, double most_seconds = 0.0);
   ~Progress() { clear(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -23,9 +24,12 @@ class Progress {
  private:
   using Clock = std::chrono::steady_clock;
   void write_line(long long done, Clock::time_point now);
+  /// ", 1:05 left", or nothing before the first steps tell.
+  [[nodiscard]] std::string time_left(double share, double seconds_so_far) const;
 
   std::string label_;
   long long total_;
+  double most_seconds_;
   Clock::time_point begin_, next_draw_;
   bool on_terminal_;
   bool drawn_ = false;

@@ -216,7 +216,8 @@ class Run {
         machine_(machine),
         known_(std::move(known)),
         file_(fs::path(parts.front().sweep.out) / report::kRowsFile, std::move(lock)),
-        progress_("gnomon compare, " + std::to_string(rows_in_all()) + " rows, steps", steps_in_all()) {}
+        progress_("gnomon compare, " + std::to_string(rows_in_all()) + " rows, steps", steps_in_all(),
+                  parts_.front().request->seconds) {}
 
   /// Returns how many frames time did not allow.
   std::size_t all() {
