@@ -167,6 +167,10 @@ struct App {
 
 /// Tabs with every option; changes the document's state.
 void draw_panel(App& app);
+/// Its tab View: what is drawn, and from where.
+void view_tab(App& app);
+/// Its tab Light.
+void light_tab(App& app);
 /// Widgets that choose and play the scene's animation; none where it has none.
 void playing_part(State& state, const Stage* stage);
 /// Plays the animation, the first where none is chosen, or pauses it.
