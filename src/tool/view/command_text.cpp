@@ -71,6 +71,17 @@ void add_settings(const Settings& settings, std::string& text) {
 
 }  // namespace
 
+bool is_spoken(std::string_view key) {
+  // A filter sets its own radii, and a command line has no list of splits without the word for it.
+  if (key == "filter_radius_texels" || key == "filter_radius_world") return false;
+  const PlanField& field = plan_field(key);
+  if (field.unit != 1.0) return false;
+  return std::holds_alternative<PlanChoice>(field.place) ||
+         std::holds_alternative<PlanMember<int>>(field.place) ||
+         std::holds_alternative<PlanMember<double>>(field.place) ||
+         std::holds_alternative<PlanMember<bool>>(field.place);
+}
+
 std::string command_text(const State& state) {
   std::string text = "gnomon view " + quoted(state.scene);
   if (state.panes) text += " --panes";

@@ -1,4 +1,4 @@
-// The viewer's state as a JSON file, and as a command line.
+// The viewer's state as a JSON file, and what of it no command line has.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -478,17 +478,6 @@ State load_state(const std::string& file) {
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(shown_name(file) + ": " + error.what());
   }
-}
-
-bool is_spoken(std::string_view key) {
-  // A filter sets its own radii, and a command line has no list of splits without the word for it.
-  if (key == "filter_radius_texels" || key == "filter_radius_world") return false;
-  const PlanField& field = plan_field(key);
-  if (field.unit != 1.0) return false;
-  return std::holds_alternative<PlanChoice>(field.place) ||
-         std::holds_alternative<PlanMember<int>>(field.place) ||
-         std::holds_alternative<PlanMember<double>>(field.place) ||
-         std::holds_alternative<PlanMember<bool>>(field.place);
 }
 
 std::string unspoken_options(const PlanOptions& options) {
