@@ -56,7 +56,7 @@ std::vector<Row> rows;
 WarpChoice judge(const WarpInput& input) noexcept {
   if (input.flat()) return input.unwarped;
   PlaneError error(input, true);
-  if (error.corners().count == 0) return input.unwarped;
+  if (error.corner_count() == 0) return input.unwarped;
   RowSearch search(input, error);
   const double ratio = search.ahead(1.0).y;
   if (is_line(input, error.body()) || !(ratio > 0.0)) return input.unwarped;
