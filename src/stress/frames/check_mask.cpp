@@ -174,7 +174,8 @@ struct Promises {
   bool lit = false, dark = false;
   float tolerance = kWeights;
 };
-Promises promises_of(const FrameSetting& setting, bool by_depth) {
+/// `warped`: the map that is read has a warp.
+Promises promises_of(const FrameSetting& setting, bool by_depth, bool warped) {
   // Every layer stores the first surface or one behind it; rules that are bounded may omit casters.
   const bool front = setting.options.depth_layer == render::DepthLayer::front;
   const bool all_drawn = !setting.options.prune.has(PruneRule::small_casters);
@@ -190,9 +191,12 @@ Promises promises_of(const FrameSetting& setting, bool by_depth) {
   if (setting.filter.contacts) return {};
   // Rays that are marched may pass between casters of different depths.
   const render::Filter& filter = *setting.filter.filter;
+  // PCF of radius 0 compares four texels with one depth, off the plane by the slant that a warp gives a
+  // texel, which is as much as any caster's height.
+  const bool one_depth = &filter == &render::filters::pcf && setting.filter.radius == 0.0;
   const bool stored = filter.info.reads != render::MapRead::depth;
   const double off = stored ? filter.reference.tolerance : 0.0;
-  return {front || !stored, front && all_drawn && &filter != &render::filters::smrt,
+  return {front || !stored, front && all_drawn && &filter != &render::filters::smrt && !(one_depth && warped),
           kWeights + static_cast<float>(off)};
 }
 
@@ -228,8 +232,9 @@ void check_pixel(FrameStage& stage, const Truth& truth, Spaces& spaces, const Fl
     return;
   }
   const trace::SurfacePoint& point = truth.points.pixels[pixel];
+  const bool warped = !stage.by_pages() && stage.maps().map[static_cast<std::size_t>(map)].kappa != 0.0;
   const Promises promised =
-      promises_of(stage.setting(), bends_lines(stage) || !truth.triangles[point.triangle].casts);
+      promises_of(stage.setting(), bends_lines(stage) || !truth.triangles[point.triangle].casts, warped);
   if (!promised.lit && !promised.dark) return;
   const Must must = must_be(stage, spaces, map, receiver_of(stage, truth, normals, pixel));
   if (must == Must::lit && promised.lit) {
