@@ -148,12 +148,13 @@ std::vector<Option> frame_options(CompareRequest& request) {
 
 std::vector<Option> scene_options(CompareRequest& request) {
   std::vector<Option> options = light_options(request.light);
-  options.push_back({.name = "--local-lights",
-                     .target = &request.local_lights,
-                     .help =
-                         "in place of --light: so many spots and points over the scene, each measured alone; "
-                         "behind a split :budget lets them share their texels (plan_lights)",
-                     .range = {{0, 64}}});
+  options.push_back(
+      {.name = "--local-lights",
+       .target = &request.local_lights,
+       .help = "so many spots and points over the scene, each measured alone; behind a split "
+               ":budget lets them share their texels (plan_lights)",
+       .range = {{0, 64}},
+       .excludes = {"--light", "--light-elevation-deg", "--light-azimuth-deg", "--sun", "--capture"}});
   for (Option& option : camera_options(request.camera)) options.push_back(std::move(option));
   for (Option& option : edit_options(request.edits)) options.push_back(std::move(option));
   return options;

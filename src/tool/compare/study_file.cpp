@@ -30,9 +30,9 @@ constexpr const char* kOfView[] = {"name", "hash", "licence", "source", "optiona
   throw std::runtime_error(field + ": " + why);
 }
 
-std::string field_of(const Option& option) {
-  if (option.name == "SCENE") return "scenes";
-  std::string field = option.name.substr(option.name.find_first_not_of('-'));
+std::string field_of(const std::string& option) {
+  if (option == "SCENE") return "scenes";
+  std::string field = option.substr(option.find_first_not_of('-'));
   std::replace(field.begin(), field.end(), '-', '_');
   return field;
 }
@@ -98,10 +98,13 @@ void set_fields(const std::string& where, const Json& object, const std::vector<
   std::vector<std::string> known = besides;
   for (const Option& option : options) {
     const bool of_line = stands_beside_study(option.name);
-    const std::string field = field_of(option);
+    const std::string field = field_of(option.name);
     if (of_line && object.contains(field)) refuse(where + field, "belongs on the command line");
     if (!of_line) known.push_back(field);
-    if (!of_line && object.contains(field)) set_option(where + field, object[field], option);
+    if (of_line || !object.contains(field)) continue;
+    for (const std::string& other : option.excludes)
+      if (object.contains(field_of(other))) refuse(where + field, "does not go with " + field_of(other));
+    set_option(where + field, object[field], option);
   }
   for (const auto& [key, value] : object.items()) {
     if (std::find(known.begin(), known.end(), key) != known.end()) continue;

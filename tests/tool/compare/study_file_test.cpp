@@ -87,6 +87,8 @@ TEST(StudyFile, is_refused_by_the_field_that_is_wrong) {
        "study.json: views[0].licence: needs a text"},
       {R"({"schema": "gnomon-study/1", "views": [{"scenes": "builtin:fence", "hash": "0123456789abcdef"}]})",
        "study.json: views[0].hash: builtin:fence has none, and not 0123456789abcdef"},
+      {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "local_lights": 2, "light": "spot"})",
+       "study.json: local_lights: does not go with light"},
       {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "exact": "x"})",
        "study.json: exact: belongs on the command line"},
       {R"({"schema": "gnomon-study/1", "scenes": "builtin:fence", "techniques": {}})",
