@@ -20,7 +20,6 @@ namespace gnomon::pages {
 using namespace gnomon::render;
 
 extern glm::dvec3 eye, forward, up, sun, held;
-extern double fov_y, aspect;
 extern glm::dmat4 view_from_world, clip_from_view;
 extern Camera camera;
 extern Light light;
@@ -44,6 +43,7 @@ extern std::uint32_t frame;
 extern bool running, light_moved;
 void fail(std::string_view reason);
 void draw(const ShadowMap& map, const TexelRect& place);
+void draw(const glm::dmat4& clip_from_world, int width_texels, int height_texels);
 void light_shadow(double bias, double normal_bias);
 void draw_page(const ShadowMap& map, std::uint32_t slot);
 

@@ -1,7 +1,9 @@
-"""Do the examples print what they say? Those of the manual, and those of the pages that are named: examples.py PAGE..."""
+"""Do the examples print what they say? Those of the manual, and those of the pages that are named: examples.py PAGE... And do those
+of the front page and of the package's page run as they stand?"""
 import doctest
 import importlib
 import os
+import re
 import sys
 
 import matplotlib
@@ -22,5 +24,16 @@ for page in sys.argv[1:]:
     assert len(test.examples) > 20, page
     found = doctest.DocTestRunner(optionflags=doctest.NORMALIZE_WHITESPACE).run(test)
     attempted, failed = attempted + found.attempted, failed + found.failed
+for page in ("../../../README.md", "../README.md"):
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), page), encoding="utf-8") as file:
+        blocks = re.findall(r"^```python\n(.*?)^```$", file.read(), re.MULTILINE | re.DOTALL)
+    assert blocks, page
+    for block in blocks:
+        drawn: list[tuple[object, ...]] = []
+        boxes = [[-40, -1, -200, 40, 0, 20], [-4, 0, -30, 4, 6, -26]]
+        given = {"eye": (0, 3, 10), "forward": (0, -0.1, -1), "sun": (0.4, -1, 0.3), "casters": boxes, "receivers": boxes}
+        exec(compile(block, page, "exec"), {**given, "draw": lambda *one: drawn.append(one)})
+        assert len(drawn) > 1 or "draw(" not in block, page
+        attempted += 1
 print("%d examples, %d fail" % (attempted, failed))
 sys.exit(failed > 0)
