@@ -30,6 +30,10 @@ namespace gnomon::c {
 /// A map of the caller's, checked so that no later call divides by zero or reads beyond an array.
 [[nodiscard]] const char* to_map(const gnomon_map* from, ShadowMap& to) noexcept;
 [[nodiscard]] const char* to_plan(const gnomon_plan* from, ShadowPlan& to) noexcept;
+/// Plans of maps that others made have no origin, which bounds the rounding of points: the camera's place.
+inline void place_origin(const Camera& camera, ShadowPlan& plan) noexcept {
+  if (plan.origin_world == glm::dvec3(0.0)) plan.origin_world = camera.position;
+}
 
 /// What is measured, beside the plan. `stats` is to be written to.
 struct Measured {

@@ -37,6 +37,7 @@ int32_t gnomon_measure(const gnomon_plan* plan, const gnomon_view* view, const g
   if (fault == nullptr) fault = to_measured(view, scene, options, stats, m);
   if (fault != nullptr) return refuse(fault, invalid_field);
   if (m.options.map >= p.map_count && p.map_count > 0) return refuse("measure_options.map", invalid_field);
+  place_origin(m.view.camera, p);
   gnomon_stats all;
   set_defaults(all);
   from_stats(measure(p, m.view, m.bounds, m.options), all);

@@ -36,6 +36,7 @@ int32_t gnomon_expected_error(const gnomon_plan* plan, const gnomon_shadow_pictu
   if (fault == nullptr) fault = to_picture(picture, shadow);
   if (fault == nullptr && pixels == nullptr) fault = "pixels";
   if (fault != nullptr) return refuse(fault, invalid_field);
+  place_origin(shadow.camera, p);
   const ExpectedError found = expected_error(p, shadow);
   *pixels = {found.wrong_pixels, found.counted_pixels, found.share()};
   return done(invalid_field);

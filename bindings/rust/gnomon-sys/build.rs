@@ -40,8 +40,15 @@ fn main() {
     // Without optimization plans take eight times as long, in debug builds as well. The flags are those of src/core/CMakeLists.txt:
     // with them plans have the same bits by every compiler.
     build.opt_level(3).debug(false).define("NDEBUG", None);
-    for flag in ["-ffp-contract=off", "-fno-exceptions", "-fno-math-errno", "-fno-trapping-math", "-fvisibility=hidden"]
-    {
+    for flag in [
+        "-ffp-contract=off",
+        "-fno-exceptions",
+        "-fno-math-errno",
+        "-fno-trapping-math",
+        "-fno-loop-unroll-and-jam",
+        "-fno-slp-vectorize",
+        "-fvisibility=hidden",
+    ] {
         build.flag_if_supported(flag);
     }
     build.compile("gnomon");
