@@ -209,8 +209,11 @@ class NearestBoxes {
   /// The rays that may pass through a part of the image, as far as left and right tell.
   [[nodiscard]] static RayRange rays_in(const Shown& part) noexcept {
     constexpr auto kCount = static_cast<double>(kRays), kUneven = static_cast<double>(kFan.uneven + 1);
-    return {static_cast<std::size_t>(max_of(part.left * kCount - kUneven, 0.0)),
-            static_cast<std::size_t>(min_of(part.right * kCount + kUneven, kCount))};
+    // Compilers convert before they choose, and what no integer holds is an exception: these are never too
+    // large.
+    const int first = static_cast<int>(max_of(part.left, 0.0) * kCount - kUneven),
+              beyond = static_cast<int>(min_of(part.right, 1.0) * kCount + kUneven);
+    return {static_cast<std::size_t>(std::max(first, 0)), std::min(static_cast<std::size_t>(beyond), kRays)};
   }
   /// Whether the ray may meet a box that is shown there before those that it has.
   [[nodiscard]] bool may_keep(std::size_t ray, const Shown& part) const noexcept {
