@@ -26,7 +26,7 @@ void check(const gnomon::report::StoredCostModel& model) {
   require(view.filters.size() == model.filters.size(), "as many filters as in the file");
   for (const gnomon::FilterCost& c : costs)
     for (const double cost : {c.prefilter_ms_per_map, c.prefilter_ms_per_megatexel, c.lookup_ms_per_megapixel,
-                              c.bytes_per_texel, c.error_ratio, c.error_power})
+                              c.bytes_per_texel, c.error_ratio, c.error_power, c.kernel_texels})
       require_cost(cost);
 }
 

@@ -17,9 +17,9 @@ struct Observation {
   PlanWork work;       ///< predicted
   double megapixels = 0.0, bytes_per_texel = 4.0;  ///< of the frame; of everything that is kept
   double frame_ms = 0.0, depth_ms = 0.0, prefilter_ms = 0.0, lookup_ms = 0.0;  ///< measured, milliseconds
-  double expected =
-      0.0;             ///< share of the pixels that hard comparison misclassifies, predicted: expected_error
-  double wrong = 0.0;  ///< share of the pixels on the wrong side of one half, measured
+  double kernel_texels = 0.0;                                                  ///< FilterCost::kernel_texels
+  double expected = 0.0;  ///< share of the pixels that this kernel misclassifies, predicted: expected_error
+  double wrong = 0.0;     ///< share of the pixels on the wrong side of one half, measured
 };
 
 /// A CostModel that owns its names.
@@ -38,9 +38,10 @@ struct StoredCostModel {
   [[nodiscard]] CostModel view(std::vector<FilterCost>& costs) const;
 };
 
-/// Least squares of relative errors, no cost below zero. A filter's error_power is the slope of log wrong
-/// over log expected within the views, and its error_ratio the mean over them. Throws ReportError for fewer
-/// than eight observations.
+/// Least squares of relative errors, no cost below zero. error_power is the slope of log wrong over log
+/// expected within views and filters. It is one for all filters, as bias and relief, which expected_error
+/// does not know, are common to them. A filter's error_ratio is its mean over the views. Throws ReportError
+/// for fewer than eight observations.
 [[nodiscard]] StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine);
 
 /// The time of a frame's shadows by the model, milliseconds; infinite for a filter that it does not know.

@@ -30,12 +30,22 @@ struct ExpectedError {
   }
 };
 
-/// The pixels that hard comparison in the plan's maps will misclassify, without drawing them. Each pixel
-/// takes the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias do not
-/// count. Shadows narrower than a pixel count less than they should: the picture should be as fine as the
-/// texels. Middles that another surface hides are not known; what is known stands for them. Nothing counts
-/// where a span has another size than the image. Pure, allocates nothing.
-[[nodiscard]] ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow) noexcept;
+/// The widest half side of a box of texels that errors are expected for.
+inline constexpr double kMaxKernelTexels = 33.0;
+
+/// The pixels that comparisons in the plan's maps will misclassify, without drawing them. Each pixel takes
+/// the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias do not count.
+/// Shadows narrower than a pixel count less than they should: the picture should be as fine as the texels.
+/// Middles that another surface hides are not known; what is known stands for them. Nothing counts where a
+/// span has another size than the image. Pure, allocates nothing.
+///
+/// `kernel_texels`: half side of the box of texels whose comparisons a filter averages, as `pcf` does. 0, the
+/// default, and what is no number stand for one texel, hard comparison. More than kMaxKernelTexels counts as
+/// that. An average is wrong where it is on the other side of one half. The picture shows no edge between its
+/// pixels, and averages over less than a pixel look too good. So they count by half, and one texel by the
+/// other half.
+[[nodiscard]] ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow,
+                                           double kernel_texels = 0.0) noexcept;
 
 /// Points of the surfaces along the shadow's edges. A pixel is on an edge where one of its four neighbours
 /// shows the same surface with another shadow. A plan for them (View::points_world) has its texels where they

@@ -165,41 +165,89 @@ double lit_alike(const Pixels& pixels, const SurfacePlane& plane, int x, int y,
   return sum;
 }
 
-/// Where the middle of the point's texel meets the plane. False where that is nowhere.
-bool texel_middle(const Pixels& pixels, const ShadowMap& map, const SurfacePlane& plane,
-                  const glm::dvec3& point, int x, int y, Pixels::Place& place) noexcept {
-  const Camera& camera = pixels.camera();
-  const TexelGrid grid = map.texels();
-  const TexelJacobian texel = texel_jacobian(map.clip_from_world, grid, point);
-  if (!(texel.w > 0.0)) return false;
-  const ViewPoint view = view_point(camera, pixels.axes(), point);
-  // Two ways along the plane, each by a pixel to where it comes nearer: away from its horizon.
-  const auto beside = [&](int dx, int dy, double growth) {
-    const int sign = growth < 0.0 ? -1 : 1;
-    const double flat = plane.flat + growth * sign;
-    return pixels.position(x + sign * dx, y + sign * dy, camera.orthographic ? flat : 1.0 / flat) - point;
-  };
-  const glm::dvec3 right = beside(1, 0, plane.right), down = beside(0, 1, plane.down);
-  const glm::dvec3 normal = safe_normalize(glm::cross(right, down), -view.ray);
-  const double facing = glm::dot(normal, view.ray);
-  if (!(std::abs(facing) > kGrazing)) return false;
-  const double xx = glm::dot(texel.x, right), xy = glm::dot(texel.x, down), yx = glm::dot(texel.y, right),
-               yy = glm::dot(texel.y, down);
-  const glm::dvec2 in_map = grid.place({texel.ndc_x, texel.ndc_y}).texel;
-  const double off_x = std::floor(in_map.x) + 0.5 - in_map.x, off_y = std::floor(in_map.y) + 0.5 - in_map.y;
-  const double determinant = xx * yy - xy * yx;
-  const double far_right = off_x * yy - off_y * xy, far_down = off_y * xx - off_x * yx;
-  const double most = kMostSteps * std::abs(determinant);
-  if (!(std::abs(far_right) < most && std::abs(far_down) < most)) return false;
-  const double steps_right = far_right / determinant, steps_down = far_down / determinant;
-  place = pixels.place(point + right * steps_right + down * steps_down);
-  return place.depth > 0.0 && std::isfinite(place.x) && std::isfinite(place.y);
+/// The texels round a point of a surface, where they meet its plane.
+class TexelsOnPlane {
+ public:
+  TexelsOnPlane(const Pixels& pixels, const ShadowMap& map, const SurfacePlane& plane,
+                const glm::dvec3& point, int x, int y) noexcept
+      : pixels_(pixels), point_(point) {
+    const Camera& camera = pixels.camera();
+    const TexelGrid grid = map.texels();
+    const TexelJacobian texel = texel_jacobian(map.clip_from_world, grid, point);
+    if (!(texel.w > 0.0)) return;
+    const ViewPoint view = view_point(camera, pixels.axes(), point);
+    // Two ways along the plane, each by a pixel to where it comes nearer: away from its horizon.
+    const auto beside = [&](int dx, int dy, double growth) {
+      const int sign = growth < 0.0 ? -1 : 1;
+      const double flat = plane.flat + growth * sign;
+      return pixels.position(x + sign * dx, y + sign * dy, camera.orthographic ? flat : 1.0 / flat) - point;
+    };
+    right_ = beside(1, 0, plane.right);
+    down_ = beside(0, 1, plane.down);
+    const glm::dvec3 normal = safe_normalize(glm::cross(right_, down_), -view.ray);
+    if (!(std::abs(glm::dot(normal, view.ray)) > kGrazing)) return;
+    x_ = {glm::dot(texel.x, right_), glm::dot(texel.x, down_)};
+    y_ = {glm::dot(texel.y, right_), glm::dot(texel.y, down_)};
+    place_ = grid.place({texel.ndc_x, texel.ndc_y}).texel;
+    known_ = true;
+  }
+  /// Of the point, in texels of its map.
+  [[nodiscard]] const glm::dvec2& place() const noexcept { return place_; }
+  /// Where the picture shows what lies there in the map. False where that is nowhere.
+  [[nodiscard]] bool shown(const glm::dvec2& texel, Pixels::Place& place) const noexcept {
+    if (!known_) return false;
+    const double off_x = texel.x - place_.x, off_y = texel.y - place_.y;
+    const double determinant = x_.x * y_.y - x_.y * y_.x;
+    const double far_right = off_x * y_.y - off_y * x_.y, far_down = off_y * x_.x - off_x * y_.x;
+    const double most = kMostSteps * std::abs(determinant);
+    if (!(std::abs(far_right) < most && std::abs(far_down) < most)) return false;
+    const double steps_right = far_right / determinant, steps_down = far_down / determinant;
+    place = pixels_.place(point_ + right_ * steps_right + down_ * steps_down);
+    return place.depth > 0.0 && std::isfinite(place.x) && std::isfinite(place.y);
+  }
+
+ private:
+  const Pixels& pixels_;
+  glm::dvec3 point_, right_{0.0}, down_{0.0};
+  glm::dvec2 x_{0.0}, y_{0.0}, place_{0.0};  ///< texels for each step to the right and down
+  bool known_ = false;
+};
+
+/// What of a row of texels lies between two places.
+double overlap(double first, double count, double low, double high) noexcept {
+  return std::max(std::min(high, first + count) - std::max(low, first), 0.0);
+}
+
+/// The shadow over a box of texels round the point. Negative: the picture shows too few of their middles. Of
+/// wide boxes the middles of blocks stand for their texels.
+double lit_over(const Pixels& pixels, const SurfacePlane& plane, const TexelsOnPlane& texels, int x, int y,
+                double half_side) noexcept {
+  // Less would be one side of an edge that lies at the border of what is shown.
+  constexpr double kLeastShown = 0.9, kMostAlongSide = 8.0;
+  const double block = std::ceil(2.0 * half_side / kMostAlongSide);
+  const glm::dvec2 low = texels.place() - half_side, high = texels.place() + half_side;
+  double sum = 0.0, weights = 0.0;
+  const double least = kLeastShown * 4.0 * half_side * half_side;
+  for (double row = std::floor(low.y); row < high.y; row += block) {
+    for (double column = std::floor(low.x); column < high.x; column += block) {
+      Pixels::Place place{};
+      if (!texels.shown(glm::dvec2(column, row) + 0.5 * block, place)) continue;
+      const double lit = lit_between(pixels, plane, x, y, place);
+      if (lit < 0.0) continue;
+      const double weight = overlap(column, block, low.x, high.x) * overlap(row, block, low.y, high.y);
+      sum += weight * lit;
+      weights += weight;
+    }
+  }
+  return weights >= least ? sum / weights : -1.0;
 }
 
 }  // namespace
 
-ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow) noexcept {
+ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow,
+                             double kernel_texels) noexcept {
   const Pixels pixels(shadow);
+  const double half_side = kernel_texels > 0.0 ? min_of(kernel_texels, kMaxKernelTexels) : 0.0;
   double counted = 0.0, known = 0.0, wrong = 0.0;
   for (int y = 0; y < pixels.height(); ++y) {
     for (int x = 0; x < pixels.width(); ++x) {
@@ -208,18 +256,27 @@ ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow
       const double depth = pixels.depth(x, y), lit = pixels.lit(x, y);
       const glm::dvec3 point = pixels.position(x, y, depth);
       const int serving = map_serving(plan, point, depth);
-      double own = lit, taken = 1.0;  // what no map holds is drawn as lit
-      if (serving >= 0) {
-        const SurfacePlane plane = plane_at(pixels, x, y);
-        Pixels::Place place{};
-        if (!texel_middle(pixels, plan.maps()[static_cast<std::size_t>(serving)], plane, point, x, y, place))
-          continue;
-        taken = lit_between(pixels, plane, x, y, place);
-        if (taken < 0.0) continue;
-        own = lit_alike(pixels, plane, x, y, place);
+      if (serving < 0) {  // drawn as lit
+        known += 1.0;
+        wrong += 1.0 - lit;
+        continue;
       }
+      const SurfacePlane plane = plane_at(pixels, x, y);
+      const ShadowMap& map = plan.maps()[static_cast<std::size_t>(serving)];
+      const TexelsOnPlane texels(pixels, map, plane, point, x, y);
+      Pixels::Place place{};
+      if (!texels.shown(glm::floor(texels.place()) + 0.5, place)) continue;
+      const double taken = lit_between(pixels, plane, x, y, place);
+      if (taken < 0.0) continue;
       known += 1.0;
-      wrong += std::abs(taken - own);
+      const double of_texel = std::abs(taken - lit_alike(pixels, plane, x, y, place));
+      const double mean = half_side > 0.0 ? lit_over(pixels, plane, texels, x, y, half_side) : -1.0;
+      if (mean < 0.0) {
+        wrong += of_texel;
+        continue;
+      }
+      const double of_mean = (mean > 0.5) != (lit > 0.5) ? 1.0 : 0.0;
+      wrong += 0.5 * (of_texel + of_mean);
     }
   }
   return {known > 0.0 ? wrong * (counted / known) : 0.0, counted};

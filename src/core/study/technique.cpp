@@ -19,7 +19,7 @@ constexpr double kTrade = 0.8;
 /// One plan, for all filters.
 struct Planned {
   Technique technique;
-  double wrong = 0.0;  ///< share of the pixels, expected of hard comparison
+  std::array<double, kMaxKernels> wrong{};  ///< share of the pixels, expected with each of the kernels
   PlanWork work;
 };
 
@@ -48,6 +48,30 @@ std::array<double, 6> all_of(const DrawingCosts& costs) noexcept {
           costs.per_kilodraw, costs.per_megatriangle, costs.per_megatexel_tested};
 }
 
+/// The different kernels of filters.
+class Kernels {
+ public:
+  explicit Kernels(std::span<const FilterCost> filters) noexcept {
+    for (const FilterCost& f : filters) {
+      if (number_of(f.kernel_texels) < count_) continue;
+      too_many_ = count_ == kMaxKernels;
+      if (too_many_) return;
+      texels_[count_++] = f.kernel_texels;
+    }
+  }
+  [[nodiscard]] bool too_many() const noexcept { return too_many_; }
+  [[nodiscard]] std::span<const double> texels() const noexcept { return {texels_.data(), count_}; }
+  [[nodiscard]] std::size_t number_of(double texels) const noexcept {
+    return static_cast<std::size_t>(std::find(texels_.begin(), texels_.begin() + count_, texels) -
+                                    texels_.begin());
+  }
+
+ private:
+  std::array<double, kMaxKernels> texels_{};
+  std::size_t count_ = 0;
+  bool too_many_ = false;
+};
+
 /// The picture's spans have one value for each pixel.
 bool fits(const ShadowPicture& shadow) noexcept {
   const Camera& camera = shadow.camera;
@@ -68,9 +92,11 @@ std::string_view broken(const Budget& budget, const CostModel& costs, const Tech
     const bool fine = is_limit(f.prefilter_ms_per_map) && is_limit(f.prefilter_ms_per_megatexel) &&
                       is_limit(f.lookup_ms_per_megapixel) && is_limit(f.bytes_per_texel) &&
                       f.bytes_per_texel <= kMaxBytes && is_limit(f.error_ratio) && f.error_ratio > 0.0 &&
-                      f.error_power >= 0.0 && f.error_power <= kMaxPower;
+                      f.error_power >= 0.0 && f.error_power <= kMaxPower && f.kernel_texels >= 0.0 &&
+                      f.kernel_texels <= kMaxKernelTexels;
     if (!fine) return "cost_model.filters";
   }
+  if (Kernels(costs.filters).too_many()) return "cost_model.filters";
   const bool sizes = std::all_of(among.map_sizes.begin(), among.map_sizes.end(),
                                  [](int size) { return size >= kLeastMapSize && size <= kMaxMapSize; });
   return sizes ? std::string_view() : "map_sizes";
@@ -79,7 +105,9 @@ std::string_view broken(const Budget& budget, const CostModel& costs, const Tech
 class Choosing {
  public:
   Choosing(const Camera& camera, const CostModel& costs) noexcept
-      : costs_(costs), megapixels_(static_cast<double>(camera.width) * camera.height / kMega) {
+      : costs_(costs),
+        kernels_(costs.filters),
+        megapixels_(static_cast<double>(camera.width) * camera.height / kMega) {
     for (const double cost : all_of(costs.drawing)) any_time_ = any_time_ || cost > 0.0;
     for (const FilterCost& f : costs.filters)
       any_time_ = any_time_ || f.prefilter_ms_per_map > 0.0 || f.prefilter_ms_per_megatexel > 0.0 ||
@@ -87,7 +115,15 @@ class Choosing {
   }
 
   [[nodiscard]] bool full() const noexcept { return count_ == all_.size(); }
-  void add(const Planned& planned) noexcept { all_[count_++] = planned; }
+  void add(const Technique& technique, const ShadowPlan& plan, const ShadowPicture& shadow,
+           const PlanWork& work) noexcept {
+    Planned& planned = all_[count_++];
+    planned.technique = technique;
+    planned.work = work;
+    const std::span<const double> texels = kernels_.texels();
+    for (std::size_t i = 0; i < texels.size(); ++i)
+      planned.wrong[i] = expected_error(plan, shadow, texels[i]).share();
+  }
   [[nodiscard]] int tried() const noexcept { return static_cast<int>(count_ * costs_.filters.size()); }
 
   [[nodiscard]] double cost(const Technique& t) const noexcept {
@@ -156,9 +192,10 @@ class Choosing {
     const FilterCost& f = costs_.filters[filter];
     Technique t = planned.technique;
     t.filter = static_cast<int>(filter);
+    const double wrong = planned.wrong[kernels_.number_of(f.kernel_texels)];
     // Nothing has no logarithm.
-    const bool has_power = f.error_power != 1.0 && planned.wrong > 0.0;
-    const double power = has_power ? elementary::pow(planned.wrong, f.error_power) : planned.wrong;
+    const bool has_power = f.error_power != 1.0 && wrong > 0.0;
+    const double power = has_power ? elementary::pow(wrong, f.error_power) : wrong;
     t.error = std::min(f.error_ratio * power, 1.0);
     t.bytes = static_cast<std::int64_t>(std::llround(static_cast<double>(t.texels) * f.bytes_per_texel));
     t.milliseconds = predicted_ms(costs_.drawing, f, planned.work, megapixels_);
@@ -173,6 +210,7 @@ class Choosing {
   }
 
   const CostModel& costs_;
+  Kernels kernels_;
   double megapixels_;
   bool any_time_ = false;
   std::array<Planned, TechniqueSet::kMost> all_;
@@ -268,7 +306,7 @@ TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, 
       return false;
     }
     for (const ShadowMap& map : plan.maps()) t.texels += std::int64_t{map.width} * map.height;
-    choosing.add({t, expected_error(plan, shadow).share(), planned_work(plan, bounds, casters)});
+    choosing.add(t, plan, shadow, planned_work(plan, bounds, casters));
     return true;
   };
   for (const Warp* warp : given_or(among.warps, kWarps)) {

@@ -11,7 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kCostSchema = "gnomon.cost.3";
+constexpr const char* kCostSchema = "gnomon.cost.4";
 constexpr std::uint64_t kMaxBytes = 1 << 20;  // larger than any cost model
 constexpr std::pair<const char*, double DrawingCosts::*> kDrawing[] = {
     {"frame_ms", &DrawingCosts::per_frame},
@@ -45,6 +45,7 @@ StoredCostModel::Filter filter_from(const Json& json) {
   get_cost(json, "bytes_per_texel", filter.cost.bytes_per_texel);
   get_cost(json, "error_ratio", filter.cost.error_ratio);
   get_cost(json, "error_power", filter.cost.error_power);
+  get_cost(json, "kernel_texels", filter.cost.kernel_texels);
   return filter;
 }
 
@@ -80,7 +81,8 @@ std::string to_text(const StoredCostModel& model) {
                                {"lookup_ms_per_megapixel", cost.lookup_ms_per_megapixel},
                                {"bytes_per_texel", cost.bytes_per_texel},
                                {"error_ratio", cost.error_ratio},
-                               {"error_power", cost.error_power}});
+                               {"error_power", cost.error_power},
+                               {"kernel_texels", cost.kernel_texels}});
   }
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

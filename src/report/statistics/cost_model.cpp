@@ -39,8 +39,8 @@ struct Part {
   }
 };
 
-/// How errors depend on those expected and on the filter: log wrong = view + filter + power of the filter *
-/// log expected. Views whose errors are others, such as leaks, have levels of their own, with a mean of 0.
+/// How errors depend on those expected and on the filter: log wrong = view + filter + power * log expected.
+/// Views whose errors are others, such as leaks, have levels of their own, with a mean of 0.
 class ErrorLaw {
  public:
   explicit ErrorLaw(std::span<const Observation> observations) {
@@ -52,7 +52,7 @@ class ErrorLaw {
         points_.push_back(
             {o.view, o.filter, std::log(o.expected), std::log(o.wrong), 1.0 / (1.0 / count + kScatter)});
     }
-    fit_powers();
+    fit_power();
     // Levels of filters and views, by turns: each the mean of what the other leaves.
     constexpr int kRounds = 50;
     for (int round = 0; round < kRounds; ++round) {
@@ -63,10 +63,10 @@ class ErrorLaw {
   }
 
   void tell(const std::string& filter, FilterCost& cost) const {
-    const auto found = powers_.find(filter);
-    if (found == powers_.end()) return;
-    cost.error_power = found->second;
-    cost.error_ratio = std::exp(filters_.at(filter));
+    const auto found = filters_.find(filter);
+    if (found == filters_.end()) return;
+    cost.error_power = power_;
+    cost.error_ratio = std::exp(found->second);
   }
 
  private:
@@ -76,8 +76,8 @@ class ErrorLaw {
   };
   using Levels = std::map<std::string, double>;
 
-  /// Of each filter the slope within its views, for they differ in level.
-  void fit_powers() {
+  /// The slope within views and filters, for they differ in level.
+  void fit_power() {
     struct Mean {
       double log_expected = 0.0, log_wrong = 0.0, weight = 0.0;
     };
@@ -88,16 +88,14 @@ class ErrorLaw {
       mean.log_wrong += p.weight * p.log_wrong;
       mean.weight += p.weight;
     }
-    std::map<std::string, std::pair<double, double>> sums;  // of x y and x x
+    double xy = 0.0, xx = 0.0;
     for (const Point& p : points_) {
       const Mean& mean = means.at({p.view, p.filter});
       const double x = p.log_expected - mean.log_expected / mean.weight;
-      auto& [xy, xx] = sums[p.filter];
       xy += p.weight * x * (p.log_wrong - mean.log_wrong / mean.weight);
       xx += p.weight * x * x;
     }
-    for (const auto& [name, sum] : sums)
-      powers_[name] = sum.second > 0.0 ? std::max(sum.first / sum.second, 0.0) : 0.0;
+    power_ = xx > 0.0 ? std::max(xy / xx, 0.0) : 0.0;
   }
 
   void average(std::string Point::*key, Levels& levels, const Levels& others) {
@@ -106,8 +104,7 @@ class ErrorLaw {
     for (const Point& p : points_) {
       const auto other = others.find(p.*other_key);
       auto& [sum, count] = sums[p.*key];
-      sum +=
-          p.log_wrong - powers_.at(p.filter) * p.log_expected - (other == others.end() ? 0.0 : other->second);
+      sum += p.log_wrong - power_ * p.log_expected - (other == others.end() ? 0.0 : other->second);
       count += 1.0;
     }
     for (const auto& [name, sum] : sums) levels[name] = sum.first / sum.second;
@@ -120,7 +117,8 @@ class ErrorLaw {
   }
 
   std::vector<Point> points_;
-  Levels views_, filters_, powers_;
+  Levels views_, filters_;
+  double power_ = 1.0;
 };
 
 }  // namespace
@@ -179,14 +177,14 @@ StoredCostModel fit_costs(std::span<const Observation> observations, std::string
   model.machine = std::move(machine);
   Part depth;
   std::map<std::string, std::pair<Part, Part>> filters;  // prefilter and look-up
-  std::map<std::string, double> bytes;
+  std::map<std::string, const Observation*> any;         // of each filter
   for (const Observation& o : observations) {
     const PlanWork& w = o.work;
     depth.add({1.0, w.maps, w.megatexels, w.kilodraws, w.megatriangles, w.megatexels_tested},
               o.frame_ms + o.depth_ms);
     filters[o.filter].first.add({w.maps, w.megatexels}, o.prefilter_ms);
     filters[o.filter].second.add({o.megapixels}, o.lookup_ms);
-    bytes[o.filter] = o.bytes_per_texel;
+    any[o.filter] = &o;
   }
   const std::vector<double> x = least_squares(depth.rows, depth.values);
   model.drawing = {x[0], x[1], x[2], x[3], x[4], x[5]};
@@ -200,7 +198,8 @@ StoredCostModel fit_costs(std::span<const Observation> observations, std::string
     cost.prefilter_ms_per_map = stored[0];
     cost.prefilter_ms_per_megatexel = stored[1];
     cost.lookup_ms_per_megapixel = looked[0];
-    cost.bytes_per_texel = bytes.at(name);
+    cost.bytes_per_texel = any.at(name)->bytes_per_texel;
+    cost.kernel_texels = any.at(name)->kernel_texels;
     law.tell(name, cost);
     model.filters.push_back({name, cost});
     model.prefilter_error += relative_error(parts.first.rows, parts.first.values, stored) / count;

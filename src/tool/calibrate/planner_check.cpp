@@ -27,6 +27,13 @@ LightPlacement light_of(const report::Row& row) {
   return light;
 }
 
+/// Half side of the box of comparisons that the filter averages, texels.
+double averaged_texels(const render::FilterSettings& filter) noexcept {
+  const render::FilterInfo& info = filter.filter->info;
+  const bool averages = info.has_kernel && info.penumbra_radius_world == nullptr;
+  return averages && filter.unit == render::KernelUnit::texels ? filter.radius + 0.5 : 0.0;
+}
+
 double wrong_pixels(const report::Row& row) noexcept {
   return row.errors.false_lit + row.errors.false_shadow;
 }
@@ -157,7 +164,8 @@ report::Observation Replanned::observe(const report::Row& row) const {
   o.depth_ms = row.times.depth_ms.median;
   o.prefilter_ms = row.times.prefilter_ms.median;
   o.lookup_ms = row.times.shade_ms.median;
-  o.expected = expected_error(plan, shadow_.picture()).share();
+  o.kernel_texels = averaged_texels(entry.filter);
+  o.expected = expected_error(plan, shadow_.picture(), o.kernel_texels).share();
   o.wrong = wrong_pixels(row);
   return o;
 }

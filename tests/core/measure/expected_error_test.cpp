@@ -87,26 +87,43 @@ TEST(ExpectedError, is_a_texels_mean_distance_from_its_middle_times_the_length_o
   }
 }
 
-/// Pixels whose exact shadow is another in the middle of their texel, in double precision.
-double wrong_by_texels(const Floor& floor, const ShadowMap& map, double turned) {
+/// Whether the floor is lit where the light through a place in the map meets it.
+bool lit_under(const glm::dmat4& world_from_clip, double ndc_x, double ndc_y, double turned) {
+  glm::dvec3 ends[2];
+  for (int end = 0; end < 2; ++end) {
+    const glm::dvec4 at = world_from_clip * glm::dvec4(ndc_x, ndc_y, end - 0.5, 1.0);
+    ends[end] = glm::dvec3(at) / at.w;
+  }
+  return Floor::is_lit(ends[0] + (ends[1] - ends[0]) * (-ends[0].y / (ends[1].y - ends[0].y)), turned);
+}
+
+/// Pixels whose exact shadow is another in the middle of their texel, in double precision. With a kernel, on
+/// the other side of one half of the mean over a box of texels.
+double wrong_by_texels(const Floor& floor, const ShadowMap& map, double turned, double kernel_texels = 0.0) {
   const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
-  const auto middle = [](double ndc, int texels) {
-    return (std::floor((ndc + 1.0) * 0.5 * texels) + 0.5) * 2.0 / texels - 1.0;
-  };
   double wrong = 0.0;
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const auto pixel = static_cast<std::size_t>(i);
     if (floor.depths[pixel] == 0.0f) continue;
     const glm::dvec3 point = floor.hit(i % kWidth, i / kWidth);
     const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
-    glm::dvec3 ends[2];
-    for (int end = 0; end < 2; ++end) {
-      const glm::dvec4 at = world_from_clip * glm::dvec4(middle(clip.x / clip.w, map.width),
-                                                         middle(clip.y / clip.w, map.height), end - 0.5, 1.0);
-      ends[end] = glm::dvec3(at) / at.w;
+    const double x = (clip.x / clip.w + 1.0) * 0.5 * map.width,
+                 y = (clip.y / clip.w + 1.0) * 0.5 * map.height;
+    const auto part = [&](double texel, double at) {
+      const double low = at - kernel_texels, high = at + kernel_texels;
+      return kernel_texels > 0.0 ? std::min(high, texel + 1.0) - std::max(low, texel) : 1.0;
+    };
+    double mean = 0.0, weights = 0.0;
+    for (double row = std::floor(y - kernel_texels); row <= y + kernel_texels; row += 1.0) {
+      for (double column = std::floor(x - kernel_texels); column <= x + kernel_texels; column += 1.0) {
+        const double weight = part(column, x) * part(row, y);
+        const bool lit = lit_under(world_from_clip, (column + 0.5) * 2.0 / map.width - 1.0,
+                                   (row + 0.5) * 2.0 / map.height - 1.0, turned);
+        mean += lit ? weight : 0.0;
+        weights += weight;
+      }
     }
-    const glm::dvec3 hit = ends[0] + (ends[1] - ends[0]) * (-ends[0].y / (ends[1].y - ends[0].y));
-    wrong += Floor::is_lit(hit, turned) != (floor.mask[pixel] > 0.5f) ? 1.0 : 0.0;
+    wrong += (mean > 0.5 * weights) != (floor.mask[pixel] > 0.5f) ? 1.0 : 0.0;
   }
   return wrong;
 }
@@ -129,6 +146,27 @@ TEST(ExpectedError, counts_the_pixels_that_texels_of_the_exact_shadow_get_wrong)
       EXPECT_GT(wrong, 300.0);
       EXPECT_NEAR(expected, wrong, 0.15 * wrong) << warp->name << ' ' << size;
     }
+  }
+}
+
+TEST(ExpectedError, averages_over_texels_are_right_more_often_along_an_edge) {
+  const Camera camera =
+      perspective_camera({0, 3, 12}, {0, -0.4, -1}, {0, 1, 0}, 0.9, 1.0, 0.5, 100.0, kWidth, kHeight);
+  for (const double kernel : {0.5, 1.5}) {
+    double hard = 0.0, wrong = 0.0, expected_hard = 0.0, expected = 0.0;
+    for (const double turned : {0.15, 1.1}) {
+      Floor floor(camera, turned);
+      floor.options.resolution.max_size = 128;
+      const ShadowPlan plan = floor.plan();
+      ASSERT_EQ(plan.maps().size(), 1u);
+      hard += wrong_by_texels(floor, plan.maps()[0], turned);
+      wrong += wrong_by_texels(floor, plan.maps()[0], turned, kernel);
+      expected_hard += expected_error(plan, floor.picture()).wrong_pixels;
+      expected += expected_error(plan, floor.picture(), kernel).wrong_pixels;
+    }
+    // Half of what hard comparison gets wrong counts.
+    EXPECT_LT(wrong, 0.8 * hard) << kernel;
+    EXPECT_NEAR(expected, 0.5 * (hard + wrong), 0.15 * hard) << kernel;
   }
 }
 

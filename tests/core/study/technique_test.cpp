@@ -221,6 +221,26 @@ TEST(Technique, a_filters_errors_go_with_its_own_power_of_m) {
   EXPECT_EQ(root.bytes, 12 * root.texels);
 }
 
+TEST(Technique, each_filter_errs_as_its_kernel_is_expected_to) {
+  Plain plain;
+  const int size[] = {512};
+  plain.among.map_sizes = size;
+  plain.budget.alike = 0.0;
+  for (const double kernel : {0.0, 1.5, 2.5}) {
+    // Another kernel is looked at before it, and costs too much.
+    const FilterCost both[] = {{"dear", 0.0, 0.0, 1e9, 4.0}, {"own", 0.0, 0.0, 1.0, 4.0}};
+    FilterCost filters[] = {both[0], both[1]};
+    filters[0].kernel_texels = 4.5;
+    filters[1].kernel_texels = kernel;
+    plain.costs.filters = filters;
+    plain.budget.milliseconds = 1e6;
+    const TechniqueChoice choice = plain.choose();
+    ASSERT_EQ(choice.status, PlanStatus::ok);
+    EXPECT_EQ(choice.chosen.filter, 1);
+    EXPECT_EQ(choice.chosen.error, expected_error(choice.plan, plain.shadow(), kernel).share());
+  }
+}
+
 TEST(Technique, work_is_what_culling_leaves_for_each_map) {
   const Plain plain;
   PlanOptions options;
@@ -328,6 +348,16 @@ TEST(Technique, broken_input_is_named) {
   Plain plain;
   plain.costs.filters = {};
   EXPECT_EQ(field(plain), "cost_model.filters");
+  std::vector<FilterCost> kernels(kMaxKernels + 1, kFilters[0]);
+  for (std::size_t i = 0; i < kernels.size(); ++i) kernels[i].kernel_texels = 0.5 + static_cast<double>(i);
+  plain.costs.filters = kernels;
+  EXPECT_EQ(field(plain), "cost_model.filters");
+  plain.costs.filters = {kernels.data(), kMaxKernels};
+  EXPECT_EQ(plain.choose().status, PlanStatus::ok);
+  for (const double bad : {nan, infinity, -1.0, kMaxKernelTexels + 1.0}) {
+    kernels[0].kernel_texels = bad;
+    EXPECT_EQ(field(plain), "cost_model.filters");
+  }
   plain = {};
   const int sizes[] = {1024, 2};
   plain.among.map_sizes = sizes;
