@@ -1,6 +1,6 @@
 // gnomon's shadow maps in three.js: what three.js takes and has. Needs the types of three (@types/three).
-import type { Camera as ThreeCamera, DirectionalLight, LightShadow, Material, Object3D, OrthographicCamera, PerspectiveCamera, Vector3 } from 'three';
-import type { Camera, CasterSet, Gnomon, History, PlanOptions, PlanResult, ShadowMap } from './index.js';
+import type { Camera as ThreeCamera, DirectionalLight, LightShadow, Material, Object3D, OrthographicCamera, PerspectiveCamera, Scene, Vector3 } from 'three';
+import type { Camera, CasterSet, Gnomon, History, Plan, PlanOptions, PlanResult, ShadowMap } from './index.js';
 
 /** Boxes of the meshes that cast and receive shadows, gathered once and followed as meshes move. */
 export class ShadowBounds {
@@ -55,6 +55,21 @@ export class GnomonSpotShadow extends LightShadow<PerspectiveCamera> {
   options: PlanOptions;
   /** Of the last frame; null before it, and where three's own map holds. */
   readonly plan: PlanResult | null;
+}
+
+/**
+ * `lamp.shadow = new GnomonPointShadow(gnomon, scene)`, for three's PointLight. Its six maps share one matrix of directions, which
+ * turns and stretches the cube towards what is in view. Of `options`, `fit` and the biases count: `stable` keeps three's own cube,
+ * `warped_stable` a cube until another has 0.8 of its error, and the others take each better one.
+ */
+export class GnomonPointShadow extends LightShadow<PerspectiveCamera> {
+  constructor(gnomon: Gnomon, scene: Scene, options?: GnomonShadowOptions);
+  readonly isGnomonPointShadow: true;
+  readonly isPointLightShadow: true;
+  readonly bounds: ShadowBounds;
+  options: PlanOptions;
+  /** Faces of the last frame that hold visible shadows; null before it. For measure(), without culling planes. */
+  readonly plan: Plan | null;
 }
 
 /** The CSM add-on with gnomon's maps. */

@@ -84,6 +84,29 @@ function addSpot(light, lights, maps) {
   maps.push(mapOf(shadow, shadow.camera, lights.length - 1, {}));
 }
 
+// Where three's renderer turns the camera of a PointLight for each face, and what is up there.
+const CUBE = [[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1]];
+const UPS = [[0, -1, 0], [0, -1, 0], [0, 0, 1], [0, 0, -1], [0, -1, 0], [0, -1, 0]];
+
+/** The six faces of a PointLight. A look-up reads half of `radius` texels beside its own. */
+function addPoint(light, lights, maps) {
+  const { shadow } = light;
+  light.updateMatrixWorld();
+  const range = light.distance || shadow.camera.far;
+  const position = light.getWorldPosition(light.position.clone());
+  lights.push({ type: 'point', position: vector(position), range });
+  CUBE.forEach((out, face) => {
+    const camera = shadow.camera.clone();
+    camera.far = range;
+    camera.position.copy(position);
+    camera.up.set(...UPS[face]);
+    camera.lookAt(position.x + out[0], position.y + out[1], position.z + out[2]);
+    camera.updateProjectionMatrix();
+    camera.updateMatrixWorld();
+    maps.push(mapOf(shadow, camera, lights.length - 1, { height: shadow.mapSize.x, filter_texels: shadow.radius / 2 }));
+  });
+}
+
 /** A directional light with one map of its own. */
 function addDirectional(light, lights, maps) {
   light.updateMatrixWorld();
@@ -103,6 +126,7 @@ export function frameOf(scene, camera, { width, height }, { csm } = {}) {
     if (!light.isLight || !light.castShadow || csm?.lights.includes(light)) return;
     if (light.isSunLight) addSunLight(light, camera, lights, maps);
     else if (light.isSpotLight) addSpot(light, lights, maps);
+    else if (light.isPointLight) addPoint(light, lights, maps);
     else if (light.isDirectionalLight) addDirectional(light, lights, maps);
   });
   const front = drawsFrontFaces(scene);

@@ -10,7 +10,7 @@ const within = (path) => import(pathToFileURL(join(consumer, 'node_modules', pat
 const THREE = await import(pathToFileURL(createRequire(join(consumer, 'x.js')).resolve('three').replace('three.cjs', 'three.module.js')));
 const { SunLight } = await within('three/examples/jsm/lights/SunLight.js');
 const { load } = await within('gnomon/index.js');
-const { GnomonCSM, GnomonSpotShadow, GnomonSunShadow, ShadowBounds, biasOf, cameraOf } = await within('gnomon/three.js');
+const { GnomonCSM, GnomonPointShadow, GnomonSpotShadow, GnomonSunShadow, ShadowBounds, biasOf, cameraOf } = await within('gnomon/three.js');
 const gnomon = await load();
 
 function scene({ casts = true, material = new THREE.MeshLambertMaterial() } = {}) {
@@ -248,6 +248,124 @@ test('boxes follow meshes that move, without being asked', () => {
 });
 
 test('what load() did not return is refused by name', () => {
-  for (const make of [() => new ShadowBounds({}, scene()), () => new GnomonSunShadow(undefined, scene()), () => new GnomonSpotShadow(null, scene())])
+  for (const make of [() => new ShadowBounds({}, scene()), () => new GnomonSunShadow(undefined, scene()), () => new GnomonSpotShadow(null, scene()), () => new GnomonPointShadow({}, scene())])
     assert.throws(make, { name: 'GnomonError', field: 'gnomon' });
+  assert.throws(() => new GnomonPointShadow(gnomon, new THREE.Group()), { field: 'scene' });
+  assert.throws(() => new GnomonPointShadow(gnomon, scene(), { options: { fit: 'loose' } }), { field: 'plan_options.fit' });
+});
+
+function bulbOf(from, options) {
+  const bulb = new THREE.PointLight(0xffffff, 1, 100);
+  bulb.position.set(0, 6, -35);
+  bulb.updateMatrixWorld();
+  bulb.shadow = new GnomonPointShadow(gnomon, from, options);
+  bulb.shadow.mapSize.set(512, 512);
+  return bulb;
+}
+/** Of each corner between the houses: the face that a cube's look-up reads, and where three's shader looks and compares there. */
+function lookUps({ matrix, camera }) {
+  const found = [];
+  for (let k = 0; k < 40; ++k) {
+    const point = new THREE.Vector3(k % 2 === 0 ? -7 : 6, k % 5, -20 - 2 * k);
+    const d = point.clone().applyMatrix4(matrix).toArray();
+    const out = [0, 1, 2].reduce((a, b) => (Math.abs(d[b]) > Math.abs(d[a]) ? b : a));
+    const along = Math.abs(d[out]);
+    const { near, far } = camera;
+    // getPointShadow of three's shader, without a bias.
+    const depth = (far * (along - near)) / (along * (far - near));
+    const sign = Math.sign(d[out]);
+    const [s, t] = [[-sign * d[2], -d[1]], [d[0], sign * d[2]], [sign * d[0], -d[1]]][out];
+    found.push({ point, face: 2 * out + (sign > 0 ? 0 : 1), across: [s / along, t / along], depth });
+  }
+  return found;
+}
+
+test("three's look-up of a point light finds what its faces draw", () => {
+  for (const fit of ['warped_stable', 'tight', 'stable']) {
+    const bulb = bulbOf(scene(), { options: { fit } });
+    const { shadow } = bulb;
+    shadow.updateMatrices(bulb, camera());
+    for (const { point, face, across, depth } of lookUps(shadow)) {
+      const drawn = point.clone().applyMatrix4(shadow.getCamera(face).projectionMatrix);
+      const off = [drawn.x - across[0], drawn.y - across[1], 0.5 * drawn.z + 0.5 - depth];
+      assert.ok(Math.max(...off.map(Math.abs)) < 1e-5, `${fit} ${face} ${off}`);
+    }
+    bulb.dispose();
+    assert.throws(() => shadow.updateMatrices(bulb, camera()), { field: 'disposed' });
+  }
+});
+
+test('the cube of a point light is finer in view than the one of three, which a stable fit keeps', () => {
+  const from = scene();
+  const view = camera();
+  const own = bulbOf(from, { options: { fit: 'stable' } });
+  own.shadow.updateMatrices(own, view);
+  const p = own.position;
+  assert.ok(own.shadow.matrix.equals(new THREE.Matrix4().makeTranslation(-p.x, -p.y, -p.z)));
+  const bulb = bulbOf(from);
+  bulb.shadow.updateMatrices(bulb, view);
+  const input = { camera: cameraOf(gnomon, view, [1920, 1080], 140), receivers: own.shadow.bounds.receivers };
+  const { receivers } = input;
+  const six = gnomon.plan({ ...input, casters: receivers, light: { kind: 'point', position: p.toArray(), range: 100 }, options: { fit: 'tight', resolutionMaxSize: 512, filterTexels: 1 } });
+  const [ours, theirs, fitted] = [bulb.shadow.plan, own.shadow.plan, six].map((plan) => gnomon.measure(plan, input));
+  console.log(`mean m of a point light: ${theirs.mean.toFixed(2)} three's cube, ${fitted.mean.toFixed(2)} six maps of plan(), ${ours.mean.toFixed(2)} one matrix for six faces`);
+  assert.ok(ours.samples > 1000 && ours.mean < 0.6 * theirs.mean && ours.mean < fitted.mean, JSON.stringify([ours, theirs, fitted]));
+  // Its texels stay at their place while the view changes little.
+  const before = [...bulb.shadow.matrix.elements];
+  view.position.z -= 0.1;
+  view.updateMatrixWorld();
+  const start = process.cpuUsage();
+  for (let i = 0; i < 50; ++i) bulb.shadow.updateMatrices(bulb, view);
+  console.log(`planning one: ${(process.cpuUsage(start).user / 50e3).toFixed(1)} ms`);
+  assert.deepEqual([...bulb.shadow.matrix.elements], before);
+  for (const one of [own, bulb]) one.dispose();
+});
+
+test('faces of a point light draw nothing where nobody sees a shadow', () => {
+  const bulb = bulbOf(scene(), { options: { fit: 'stable' } });
+  const { shadow } = bulb;
+  shadow.updateMatrices(bulb, camera());
+  const seen = () => shadow._frustums.map((frustum) => frustum.intersectsSphere(new THREE.Sphere(bulb.position, 50)));
+  // Nothing is above it.
+  assert.deepEqual(seen(), [true, true, false, true, true, true]);
+  assert.equal(shadow.plan.maps.length, 5);
+  const away = camera();
+  away.position.z = -100;
+  away.updateMatrixWorld();
+  shadow.updateMatrices(bulb, away);
+  assert.equal(seen()[4], false);
+  // Where the scene's handler was replaced, every face is drawn.
+  shadow.getFrustum(0);
+  assert.deepEqual(seen(), Array(6).fill(true));
+  bulb.dispose();
+  const dark = bulbOf(scene({ casts: false }));
+  dark.shadow.updateMatrices(dark, camera());
+  assert.deepEqual([dark.shadow.plan.status, dark.shadow.plan.maps.length], ['no_caster', 0]);
+  dark.dispose();
+});
+
+test('a point light is planned for the camera that its scene is drawn with, and the near plane stays where it was set', () => {
+  const from = scene();
+  let calls = 0;
+  from.onBeforeRender = () => ++calls;
+  const bulb = bulbOf(from);
+  const { shadow } = bulb;
+  shadow.camera.near = 0.2;
+  shadow.camera.position.copy(bulb.position);
+  shadow.camera.far = 100;
+  const away = camera();
+  away.position.z = -100;
+  away.updateMatrixWorld();
+  from.onBeforeRender(undefined, from, away, null);
+  shadow.getFrustum(0);
+  assert.equal(calls, 1);
+  assert.ok(shadow.plan.maps.length < 6);
+  for (let i = 0; i < 2; ++i) {
+    from.onBeforeRender(undefined, from, away, null);
+    shadow.getFrustum(0);
+    // What is cut away near the light reaches to 0.2.
+    const most = Math.max(...shadow._cameras.flatMap(({ projectionMatrixInverse }) => [[-1, -1], [-1, 1], [1, -1], [1, 1]].map(([x, y]) => new THREE.Vector3(x, y, -1).applyMatrix4(projectionMatrixInverse).distanceTo(bulb.position))));
+    assert.ok(Math.abs(most - 0.2) < 1e-5 && shadow.camera.near < 0.2, `${most}`);
+  }
+  bulb.dispose();
 });

@@ -76,3 +76,18 @@ test('a spot has one map, and front faces are told from back faces', () => {
   scene.traverse((mesh) => { if (mesh.isMesh) mesh.material.shadowSide = THREE.DoubleSide; });
   assert.equal(frameOf(scene, camera, canvas).maps[0].stores, undefined);
 });
+
+test('a point light has the six faces of its cube', () => {
+  const scene = street(), camera = eye();
+  walk(camera, 0);
+  const lamp = new THREE.PointLight(0xffffff, 100, 60);
+  lamp.position.set(0, 6, -20);
+  lamp.castShadow = true;
+  lamp.shadow.mapSize.set(1024, 1024);
+  scene.add(lamp);
+  scene.updateMatrixWorld();
+  const capture = JSON.parse(JSON.stringify(captureThree(scene, camera, canvas, { name: 'three.js PointLight, street', engine: 'three.js 0.187' })));
+  alike(capture, shipped('three_point'));
+  // Nothing above the lamp is in view, and three draws that face.
+  assert.deepEqual(judged(capture) ?? ['map_unseen'], ['map_unseen']);
+});

@@ -19,15 +19,15 @@ function streetMeshes() {
     return { geometry, matrix: new THREE.Matrix4().makeTranslation((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2) };
   });
 }
-async function cityMeshes() {
-  const { scene } = await new GLTFLoader().loadAsync('/scenes/low_poly_city/scene.gltf');
-  scene.scale.multiplyScalar(CITY_SCALE);
+/** Meshes of a glTF scene of SCENES. */
+const gltfMeshes = (path, scale = 1) => async () => {
+  const { scene } = await new GLTFLoader().loadAsync(`/scenes/${path}`);
+  scene.scale.multiplyScalar(scale);
   scene.updateMatrixWorld();
   const meshes = [];
   scene.traverse((mesh) => { if (mesh.isMesh) meshes.push({ geometry: mesh.geometry, matrix: mesh.matrixWorld.clone() }); });
   return meshes;
-}
-const CITY_SCALE = 0.1;
+};
 
 /** Down the middle of the street, looking from side to side. */
 function walk(camera, i) {
@@ -42,11 +42,15 @@ function turn(camera, i) {
 }
 // Babylon and PlayCanvas draw front faces: their own shadows take biases of `flights.js ENGINE --biases`, by the rule below.
 const BABYLON = { 512: { cascaded: [0.01, 0], single: [0.02, 0.2] }, 1024: { cascaded: [0.005, 0], single: [0.02, 0.1] } };
+const BULB = { position: [0.6, 6.2, -35.7], target: [0.6, 0, -35.7], angle: Math.PI, distance: 100 };
 export const SCENES = {
   street: { meshes: streetMeshes, toSun: [-0.5, 1, 0.35], place: walk, babylon: BABYLON, playcanvas: { 512: [0.2, 0.05], 1024: [0.2, 0] } },
   'low sun': { meshes: streetMeshes, toSun: [-0.8, 0.28, -0.45], place: walk, babylon: BABYLON, playcanvas: { 512: [0.2, 0], 1024: [0.2, 0] } },
   // A spot above the street, in place of a sun.
   lamp: { meshes: streetMeshes, place: walk, lamp: { position: [0, 18, -20], target: [2, 0, -50], angle: 0.9, distance: 200 } },
+  // A bulb between the houses, which lights all around it.
+  bulb: { meshes: streetMeshes, place: walk, lamp: BULB },
+  'bulb, both sides': { meshes: streetMeshes, place: walk, lamp: BULB, shadowSide: THREE.DoubleSide, biases: { 512: { point: [-0.0001, 0.1] }, 1024: { point: [-0.0001, 0.05] } } },
   // Front faces in maps need a bias: three's own shadows take the one with the fewest misclassified pixels of those in BIASES
   // that leave acne on less than 2 % of the pixels (`flights.js --biases`).
   'both sides': {
@@ -55,7 +59,7 @@ export const SCENES = {
   },
   // Its meshes are not closed: both sides cast.
   city: {
-    meshes: cityMeshes, toSun: [-0.6, 0.9, 0.35], place: turn, shadowSide: THREE.DoubleSide, babylon: { ...BABYLON, 512: { ...BABYLON[512], cascaded: [0.005, 0.2] } },
+    meshes: gltfMeshes('low_poly_city/scene.gltf', 0.1), toSun: [-0.6, 0.9, 0.35], place: turn, shadowSide: THREE.DoubleSide, babylon: { ...BABYLON, 512: { ...BABYLON[512], cascaded: [0.005, 0.2] } },
     biases: { 512: { sun: [-0.004, 0], csm: [-0.0004, 0.1] }, 1024: { sun: [-0.002, 0], csm: [-0.0002, 0.05] } },
   },
 };

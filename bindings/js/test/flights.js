@@ -14,14 +14,15 @@ const here = dirname(fileURLToPath(import.meta.url));
 const consumer = process.env.CONSUMER ?? join(here, '../../../build/js/consumer');
 const folder = process.env.SCENES ?? join(here, '../../../../shared/scenes');
 const SIZES = { 1024: [960, 540], 512: [640, 360] };
-const SCENES_OF = { three: ['street', 'low sun', 'lamp', 'city'], babylon: ['street', 'low sun', 'city'], playcanvas: ['street', 'low sun'] };
+const SCENES_OF = { three: ['street', 'low sun', 'lamp', 'bulb', 'bulb, both sides', 'city'], babylon: ['street', 'low sun', 'city'], playcanvas: ['street', 'low sun'] };
 // Those that need a bias.
-const BIASED = { three: ['both sides', 'city'], babylon: ['street', 'low sun', 'both sides', 'city'], playcanvas: ['street', 'low sun'] };
+const BIASED = { three: ['both sides', 'bulb, both sides', 'city'], babylon: ['street', 'low sun', 'both sides', 'city'], playcanvas: ['street', 'low sun'] };
+const FILES = { city: 'low_poly_city' };
 const PAGES = { three: 'flights_page.js', babylon: 'babylon_page.js', playcanvas: 'playcanvas_page.js' };
 
 /** Rows of one flight: misclassified pixels, flips and acne of every technique. `others`: see run() of the pages. */
 export async function fly(scene, size, frames, { engine = 'three', ...others } = {}) {
-  if (scene === 'city' && !existsSync(join(folder, 'low_poly_city'))) return { rows: [], pictures: {} };
+  if (scene in FILES && !existsSync(join(folder, FILES[scene]))) return { rows: [], pictures: {} };
   const { result, errors } = await inBrowser(PAGES[engine], consumer, { scene, size, picture: SIZES[size], frames, ...others }, folder);
   if (errors.length > 0) throw new Error(errors.join('\n'));
   return result;

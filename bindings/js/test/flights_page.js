@@ -3,20 +3,23 @@ import * as THREE from 'three';
 import { CSM } from 'three/addons/csm/CSM.js';
 import { SunLight } from 'three/addons/lights/SunLight.js';
 import { load } from 'gnomon';
-import { GnomonCSM, GnomonSpotShadow, GnomonSunShadow, ShadowBounds } from 'gnomon/three';
+import { GnomonCSM, GnomonPointShadow, GnomonSpotShadow, GnomonSunShadow, ShadowBounds } from 'gnomon/three';
 import { FAR, SCENES, Truth, counted, sceneOf } from './exact.js';
 
-// Depths and lengths along the normal, of SunLight and of CSM: their maps are not equally deep.
-const BIASES = { sun: [[-0.001, -0.002, -0.004], [0, 0.1, 0.2, 0.4]], csm: [[-0.0001, -0.0002, -0.0004], [0, 0.05, 0.1, 0.2]] };
+// Depths and lengths along the normal, of SunLight, CSM and PointLight: their maps are not equally deep.
+const BIASES = { point: [[-0.0001, -0.0003, -0.001, -0.003], [0, 0.05, 0.1, 0.2]], sun: [[-0.001, -0.002, -0.004], [0, 0.1, 0.2, 0.4]], csm: [[-0.0001, -0.0002, -0.0004], [0, 0.05, 0.1, 0.2]] };
 // With the polygon offset that gnomon's casters are drawn with, three's own need less constant bias.
 const SLOPED = { factor: 1.5, sun: -0.0002, csm: -0.00005 };
 const FITS = { gnomon: {}, 'gnomon, tight': { fit: 'tight' }, 'gnomon, stable': { fit: 'stable' } };
 
-function spotOf({ position, target, angle, distance }) {
-  const light = new THREE.SpotLight(0xffffff, Math.PI, 0, angle, 0, 0);
+const isPoint = ({ angle }) => angle === Math.PI;
+/** A SpotLight, or a PointLight where its angle is all around. */
+function lampOf(lamp) {
+  const { position, target, angle, distance } = lamp;
+  const light = isPoint(lamp) ? new THREE.PointLight(0xffffff, Math.PI, 0, 0) : new THREE.SpotLight(0xffffff, Math.PI, 0, angle, 0, 0);
   light.position.set(...position);
-  light.target.position.set(...target);
-  light.target.updateMatrixWorld();
+  light.target?.position.set(...target);
+  light.target?.updateMatrixWorld();
   light.shadow.camera.far = distance;
   return light;
 }
@@ -41,9 +44,9 @@ function techniquesOf(gnomon, camera, { meshes, toSun, lamp, shadowSide, biases 
     shadows.updateFrustums();
     return { scene, prepare: () => shadows.update(), dispose() { shadows.remove(); shadows.dispose(); } };
   };
-  const spot = (set) => () => {
+  const local = (set) => () => {
     const { scene } = sceneOf(meshes, shadowSide);
-    const light = spotOf(lamp);
+    const light = lampOf(lamp);
     light.castShadow = true;
     set(light, scene);
     light.shadow.camera.far = lamp.distance;
@@ -59,8 +62,14 @@ function techniquesOf(gnomon, camera, { meshes, toSun, lamp, shadowSide, biases 
   });
   const all = {};
   if (lamp !== undefined) {
-    all.SpotLight = spot(() => {});
-    for (const [name, options] of Object.entries(FITS)) all[`SpotLight, ${name}`] = spot((light, scene) => { light.shadow = new GnomonSpotShadow(gnomon, scene, { resolution, options }); });
+    const [own, Shadow] = isPoint(lamp) ? ['PointLight', GnomonPointShadow] : ['SpotLight', GnomonSpotShadow];
+    const biased = ([bias, normalBias]) => local(({ shadow }) => Object.assign(shadow, { bias, normalBias }));
+    if (sweep) {
+      for (const bias of BIASES.point[0]) for (const normal of BIASES.point[1]) all[`${own} ${bias} ${normal}`] = biased([bias, normal]);
+      return all;
+    }
+    all[own] = biased(biases?.[size].point ?? [0, 0]);
+    for (const [name, options] of Object.entries(FITS)) all[`${own}, ${name}`] = local((light, scene) => { light.shadow = new Shadow(gnomon, scene, { resolution, options }); });
     return all;
   }
   if (sweep) {
@@ -113,7 +122,7 @@ export async function run({ scene, size, sweep = false, ...flight }) {
   const camera = new THREE.PerspectiveCamera(57, width / height, 0.2, FAR);
   const exact = new Truth(renderer, meshes, toSun ?? lamp, [width, height]);
   const unshadowed = sceneOf(meshes).scene;
-  const light = lamp === undefined ? new THREE.DirectionalLight(0xffffff, Math.PI) : spotOf(lamp);
+  const light = lamp === undefined ? new THREE.DirectionalLight(0xffffff, Math.PI) : lampOf(lamp);
   if (toSun !== undefined) light.position.copy(toSun);
   unshadowed.add(light);
   const made = {};

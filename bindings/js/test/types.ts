@@ -1,6 +1,6 @@
 // The types as a program uses them; compiled, and not run.
-import { Scene, SpotLight } from 'three';
-import { GnomonSpotShadow, GnomonSunShadow } from 'gnomon/three';
+import { PointLight, Scene, SpotLight } from 'three';
+import { GnomonPointShadow, GnomonSpotShadow, GnomonSunShadow } from 'gnomon/three';
 import { load as loadFull } from 'gnomon/full';
 import { load, GnomonError, type PlanResult, type ShadowMap } from 'gnomon';
 
@@ -15,6 +15,9 @@ export async function used(): Promise<number> {
   shadow.mapSize.set(1024, 1024);
   shadow.bounds.update();
   new SpotLight().shadow = new GnomonSpotShadow(gnomon, new Scene(), { bounds: shadow.bounds });
+  const bulb = new GnomonPointShadow(gnomon, new Scene(), { options: { fit: 'tight' } });
+  new PointLight().shadow = bulb;
+  if (bulb.plan !== null) gnomon.measure(bulb.plan, { camera, receivers: bulb.bounds.receivers });
   try {
     const error = gnomon.measure({ maps: [foreign], selection: 'view_depth' }, { camera, receivers: boxes });
     return error.p95 + plan.maps[0].mMax + gnomon.cull(plan.maps[0], boxes).length;
