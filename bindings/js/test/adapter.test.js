@@ -11,6 +11,7 @@ const THREE = await import(pathToFileURL(createRequire(join(consumer, 'x.js')).r
 const { SunLight } = await within('three/examples/jsm/lights/SunLight.js');
 const { load } = await within('gnomon/index.js');
 const { GnomonCSM, GnomonPointShadow, GnomonSpotShadow, GnomonSunShadow, ShadowBounds, biasOf, cameraOf } = await within('gnomon/three.js');
+const { turnGrids } = await within('gnomon/adapter.js');
 const gnomon = await load();
 
 function scene({ casts = true, material = new THREE.MeshLambertMaterial() } = {}) {
@@ -262,11 +263,11 @@ function bulbOf(from, options) {
   bulb.shadow.mapSize.set(512, 512);
   return bulb;
 }
-/** Of each corner between the houses: the face that a cube's look-up reads, and where three's shader looks and compares there. */
+/** Of each of 60 points around the light: the face that a cube's look-up reads, and where three's shader looks and compares there. */
 function lookUps({ matrix, camera }) {
   const found = [];
-  for (let k = 0; k < 40; ++k) {
-    const point = new THREE.Vector3(k % 2 === 0 ? -7 : 6, k % 5, -20 - 2 * k);
+  for (let k = 0; k < 60; ++k) {
+    const point = new THREE.Vector3(((k * 11) % 37) - 18.5, ((k * 7) % 23) - 5, ((k * 5) % 31) - 50.5);
     const d = point.clone().applyMatrix4(matrix).toArray();
     const out = [0, 1, 2].reduce((a, b) => (Math.abs(d[b]) > Math.abs(d[a]) ? b : a));
     const along = Math.abs(d[out]);
@@ -285,7 +286,9 @@ test("three's look-up of a point light finds what its faces draw", () => {
     const bulb = bulbOf(scene(), { options: { fit } });
     const { shadow } = bulb;
     shadow.updateMatrices(bulb, camera());
-    for (const { point, face, across, depth } of lookUps(shadow)) {
+    const found = lookUps(shadow);
+    if (fit === 'stable') assert.equal(new Set(found.map(({ face }) => face)).size, 6);
+    for (const { point, face, across, depth } of found) {
       const drawn = point.clone().applyMatrix4(shadow.getCamera(face).projectionMatrix);
       const off = [drawn.x - across[0], drawn.y - across[1], 0.5 * drawn.z + 0.5 - depth];
       assert.ok(Math.max(...off.map(Math.abs)) < 1e-5, `${fit} ${face} ${off}`);
@@ -303,26 +306,35 @@ test('the cube of a point light is finer in view than the one of three, which a 
   const p = own.position;
   assert.ok(own.shadow.matrix.equals(new THREE.Matrix4().makeTranslation(-p.x, -p.y, -p.z)));
   const bulb = bulbOf(from);
+  const before = process.cpuUsage();
   bulb.shadow.updateMatrices(bulb, view);
+  const first = process.cpuUsage(before).user / 1e3;
   const input = { camera: cameraOf(gnomon, view, [1920, 1080], 140), receivers: own.shadow.bounds.receivers };
   const { receivers } = input;
   const six = gnomon.plan({ ...input, casters: receivers, light: { kind: 'point', position: p.toArray(), range: 100 }, options: { fit: 'tight', resolutionMaxSize: 512, filterTexels: 1 } });
   const [ours, theirs, fitted] = [bulb.shadow.plan, own.shadow.plan, six].map((plan) => gnomon.measure(plan, input));
   console.log(`mean m of a point light: ${theirs.mean.toFixed(2)} three's cube, ${fitted.mean.toFixed(2)} six maps of plan(), ${ours.mean.toFixed(2)} one matrix for six faces`);
   assert.ok(ours.samples > 1000 && ours.mean < 0.6 * theirs.mean && ours.mean < fitted.mean, JSON.stringify([ours, theirs, fitted]));
-  // Its texels stay at their place while the view changes little.
-  const before = [...bulb.shadow.matrix.elements];
-  view.position.z -= 0.1;
-  view.updateMatrixWorld();
+  // Its texels stay at their place for many frames; those of the tightest cube do not.
+  const tight = bulbOf(from, { options: { fit: 'tight' } });
+  const shapes = [new Set(), new Set()];
   const start = process.cpuUsage();
-  for (let i = 0; i < 50; ++i) bulb.shadow.updateMatrices(bulb, view);
-  console.log(`planning one: ${(process.cpuUsage(start).user / 50e3).toFixed(1)} ms`);
-  assert.deepEqual([...bulb.shadow.matrix.elements], before);
-  for (const one of [own, bulb]) one.dispose();
+  for (let i = 0; i < 50; ++i) {
+    view.position.z -= 0.25;
+    view.updateMatrixWorld();
+    [bulb, tight].forEach((one, k) => {
+      one.shadow.updateMatrices(one, view);
+      shapes[k].add(one.shadow.matrix.elements.join());
+    });
+  }
+  console.log(`planning one: ${first.toFixed(0)} ms first, ${(process.cpuUsage(start).user / 100e3).toFixed(1)} ms then; ${shapes.map(({ size }) => size)} cubes in 50 frames`);
+  assert.ok(shapes[0].size <= 5 && shapes[1].size >= 2 * shapes[0].size);
+  for (const one of [own, bulb, tight]) one.dispose();
 });
 
 test('faces of a point light draw nothing where nobody sees a shadow', () => {
-  const bulb = bulbOf(scene(), { options: { fit: 'stable' } });
+  const from = scene();
+  const bulb = bulbOf(from, { options: { fit: 'stable' } });
   const { shadow } = bulb;
   shadow.updateMatrices(bulb, camera());
   const seen = () => shadow._frustums.map((frustum) => frustum.intersectsSphere(new THREE.Sphere(bulb.position, 50)));
@@ -334,9 +346,16 @@ test('faces of a point light draw nothing where nobody sees a shadow', () => {
   away.updateMatrixWorld();
   shadow.updateMatrices(bulb, away);
   assert.equal(seen()[4], false);
+  from.onBeforeRender(undefined, from, away, null);
+  shadow.getFrustum(0);
+  assert.equal(seen()[4], false);
   // Where the scene's handler was replaced, every face is drawn.
   shadow.getFrustum(0);
   assert.deepEqual(seen(), Array(6).fill(true));
+  for (const mesh of from.children) mesh.position.z += 1000;
+  from.updateMatrixWorld();
+  shadow.updateMatrices(bulb, away);
+  assert.equal(shadow.plan.status, 'nothing_visible');
   bulb.dispose();
   const dark = bulbOf(scene({ casts: false }));
   dark.shadow.updateMatrices(dark, camera());
@@ -368,4 +387,55 @@ test('a point light is planned for the camera that its scene is drawn with, and 
     assert.ok(Math.abs(most - 0.2) < 1e-5 && shadow.camera.near < 0.2, `${most}`);
   }
   bulb.dispose();
+});
+
+test('a stable grid is turned about the sun, holds what is in view, and stays at its place', () => {
+  const view = camera();
+  const data = { parent: scene(), camera: view, cascades: 4, maxFar: 250, shadowMapSize: 512, lightDirection: new THREE.Vector3(0.8, -0.28, 0.45), options: { fit: 'stable' } };
+  const csm = new GnomonCSM(gnomon, data);
+  csm.update();
+  const before = csm.plan.maps.map(({ clipFromWorld }) => [...clipFromWorld]);
+  for (let frame = 0; frame < 20; ++frame) {
+    const eye = cameraOf(gnomon, view, [1920, 1080], 250);
+    csm.plan.maps.forEach((map, k) => {
+      const clip = new THREE.Matrix4().fromArray(map.clipFromWorld);
+      // A step up in the world is no step along one axis of the texels.
+      const up = new THREE.Vector3(0, 1, 0).transformDirection(clip);
+      assert.ok(Math.abs(up.x) > 0.5 * Math.abs(up.y) && Math.abs(up.y) > 0.5 * Math.abs(up.x));
+      const right = new THREE.Vector3().crossVectors(new THREE.Vector3(...eye.forward), new THREE.Vector3(...eye.up));
+      const room = 1 - (2 * map.filterMarginTexels) / map.width + 1e-9;
+      for (const depth of [map.depthBegin - map.overlap, map.depthEnd]) {
+        for (const [x, y] of [[eye.left, eye.bottom], [eye.left, eye.top], [eye.right, eye.bottom], [eye.right, eye.top]]) {
+          const corner = new THREE.Vector3(...eye.position).addScaledVector(new THREE.Vector3(...eye.forward), depth);
+          corner.addScaledVector(right, depth * x).addScaledVector(new THREE.Vector3(...eye.up), depth * y).applyMatrix4(clip);
+          assert.ok(Math.max(Math.abs(corner.x), Math.abs(corner.y)) <= room, `${frame} ${k} ${corner.toArray()}`);
+        }
+      }
+      // Whole texels, or another size of its slice.
+      const moved = [12, 13].map((i) => ((map.clipFromWorld[i] - before[k][i]) * map.width) / 2);
+      if (map.clipFromWorld[0] === before[k][0]) for (const texels of moved) assert.ok(Math.abs(texels - Math.round(texels)) < 1e-6, `${moved}`);
+      else assert.ok(frame > 0 && k > 0);
+    });
+    view.position.add(new THREE.Vector3(0.31, 0.05, -1.3));
+    view.rotateY(0.05);
+    view.updateMatrixWorld();
+    csm.update();
+  }
+  csm.remove();
+  csm.dispose();
+});
+
+test('turned grids hold what an oblique camera sees, in left-handed worlds as well', () => {
+  const boxes = new Float64Array([-300, -1, -300, 300, 0, 300, -5, 0, -30, 5, 20, -25, -5, 0, 25, 5, 20, 30]);
+  for (const leftHanded of [false, true]) {
+    for (const orthographic of [false, true]) {
+      const across = orthographic ? 60 : 1;
+      const eye = { ...gnomon.perspective({ position: [3, 20, 2], forward: [0.6, -0.5, -0.6], fovY: 1, far: 200, width: 640, height: 360 }), orthographic, left: -0.1 * across, right: 1.4 * across, bottom: -0.5 * across, top: 0.4 * across };
+      const plan = gnomon.plan({ camera: eye, light: { direction: [0.8, -0.5, 0.4] }, casters: boxes, receivers: boxes, options: { fit: 'stable', resolutionMaxSize: 512, clipSpace: { leftHanded } } });
+      turnGrids(gnomon, plan, eye);
+      assert.ok(plan.maps.length > 1 && plan.maps.every(({ snapValid }) => !snapValid));
+      const { samples, outside } = gnomon.measure(plan, { camera: eye, receivers: boxes });
+      assert.ok(samples > 1000 && outside === 0, `${leftHanded} ${orthographic} ${outside} of ${samples}`);
+    }
+  }
 });

@@ -19,15 +19,15 @@ function streetMeshes() {
     return { geometry, matrix: new THREE.Matrix4().makeTranslation((x0 + x1) / 2, (y0 + y1) / 2, (z0 + z1) / 2) };
   });
 }
-/** Meshes of a glTF scene of SCENES. */
-const gltfMeshes = (path, scale = 1) => async () => {
-  const { scene } = await new GLTFLoader().loadAsync(`/scenes/${path}`);
-  scene.scale.multiplyScalar(scale);
+async function cityMeshes() {
+  const { scene } = await new GLTFLoader().loadAsync('/scenes/low_poly_city/scene.gltf');
+  scene.scale.multiplyScalar(CITY_SCALE);
   scene.updateMatrixWorld();
   const meshes = [];
   scene.traverse((mesh) => { if (mesh.isMesh) meshes.push({ geometry: mesh.geometry, matrix: mesh.matrixWorld.clone() }); });
   return meshes;
-};
+}
+const CITY_SCALE = 0.1;
 
 /** Down the middle of the street, looking from side to side. */
 function walk(camera, i) {
@@ -59,7 +59,7 @@ export const SCENES = {
   },
   // Its meshes are not closed: both sides cast.
   city: {
-    meshes: gltfMeshes('low_poly_city/scene.gltf', 0.1), toSun: [-0.6, 0.9, 0.35], place: turn, shadowSide: THREE.DoubleSide, babylon: { ...BABYLON, 512: { ...BABYLON[512], cascaded: [0.005, 0.2] } },
+    meshes: cityMeshes, toSun: [-0.6, 0.9, 0.35], place: turn, shadowSide: THREE.DoubleSide, babylon: { ...BABYLON, 512: { ...BABYLON[512], cascaded: [0.005, 0.2] } },
     biases: { 512: { sun: [-0.004, 0], csm: [-0.0004, 0.1] }, 1024: { sun: [-0.002, 0], csm: [-0.0002, 0.05] } },
   },
 };

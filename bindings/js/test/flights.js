@@ -1,6 +1,7 @@
 // Are gnomon's maps better in an engine than its own while the camera moves? Flights, counted against exact rays.
 //   node test/flights.js [ENGINE] [FRAMES] [PICTURES]   FRAMES: 120; PICTURES: a folder for one picture of each flight and technique
 //   node test/flights.js [ENGINE] --biases               the engine's own with several biases, a few frames of the scenes that need one
+//   node test/flights.js --texels                        the city: its own at 512², and gnomon's at 512², 1024² and 2048²
 //   node test/flights.js playcanvas --rolls              its own with the light turned about its direction
 // ENGINE: three, babylon or playcanvas.
 // CONSUMER: a folder in which gnomon, the engines, three-mesh-bvh and puppeteer-core are installed, as all.sh leaves it.
@@ -17,12 +18,11 @@ const SIZES = { 1024: [960, 540], 512: [640, 360] };
 const SCENES_OF = { three: ['street', 'low sun', 'lamp', 'bulb', 'bulb, both sides', 'city'], babylon: ['street', 'low sun', 'city'], playcanvas: ['street', 'low sun'] };
 // Those that need a bias.
 const BIASED = { three: ['both sides', 'bulb, both sides', 'city'], babylon: ['street', 'low sun', 'both sides', 'city'], playcanvas: ['street', 'low sun'] };
-const FILES = { city: 'low_poly_city' };
 const PAGES = { three: 'flights_page.js', babylon: 'babylon_page.js', playcanvas: 'playcanvas_page.js' };
 
 /** Rows of one flight: misclassified pixels, flips and acne of every technique. `others`: see run() of the pages. */
 export async function fly(scene, size, frames, { engine = 'three', ...others } = {}) {
-  if (scene in FILES && !existsSync(join(folder, FILES[scene]))) return { rows: [], pictures: {} };
+  if (scene === 'city' && !existsSync(join(folder, 'low_poly_city'))) return { rows: [], pictures: {} };
   const { result, errors } = await inBrowser(PAGES[engine], consumer, { scene, size, picture: SIZES[size], frames, ...others }, folder);
   if (errors.length > 0) throw new Error(errors.join('\n'));
   return result;
@@ -30,11 +30,11 @@ export async function fly(scene, size, frames, { engine = 'three', ...others } =
 
 const percent = (share) => `${(100 * share).toFixed(3)} %`;
 
-async function table(engine, frames, out) {
+async function table(engine, frames, out, { scenes = SCENES_OF[engine], sizes = Object.keys(SIZES).map(Number), ...how } = {}) {
   console.log('| scene | maps | technique | misclassified | to its own | flips | to its own | acne |\n|--|--|--|--:|--:|--:|--:|--:|');
-  for (const size of Object.keys(SIZES).map(Number)) {
-    for (const scene of SCENES_OF[engine]) {
-      const { rows, pictures } = await fly(scene, size, frames, { engine, ...(out === undefined ? {} : { pictureOf: frames >> 1 }) });
+  for (const size of sizes) {
+    for (const scene of scenes) {
+      const { rows, pictures } = await fly(scene, size, frames, { engine, ...how, ...(out === undefined ? {} : { pictureOf: frames >> 1 }) });
       let own;
       for (const row of rows) {
         if (!row.technique.includes(',')) own = row;
@@ -60,6 +60,7 @@ async function sweeps(engine, sweep) {
 if (process.argv[1] === fileURLToPath(import.meta.url)) {
   const given = process.argv.slice(2);
   const engine = given[0] in PAGES ? given.shift() : 'three';
-  const sweep = given[0]?.match(/^--(biases|rolls)$/)?.[1];
-  await (sweep !== undefined ? sweeps(engine, sweep) : table(engine, Number(given[0] ?? 120), given[1]));
+  const sweep = given[0]?.match(/^--(biases|rolls|texels)$/)?.[1];
+  if (sweep === 'texels') await table('three', 6, undefined, { scenes: ['city'], sizes: [512], sweep });
+  else await (sweep !== undefined ? sweeps(engine, sweep) : table(engine, Number(given[0] ?? 120), given[1]));
 }

@@ -24,22 +24,22 @@ function lampOf(lamp) {
   return light;
 }
 
-/** How each technique is made: three's own and with gnomon's maps, or three's own with every bias of BIASES. */
+/** How each technique is made: three's own and with gnomon's maps, three's own with every bias of BIASES, or gnomon's with more texels. */
 function techniquesOf(gnomon, camera, { meshes, toSun, lamp, shadowSide, biases }, [width, height], size, sweep) {
   const resolution = [width, height];
-  const sun = (set) => () => {
+  const sun = (set, side = size) => () => {
     const { scene } = sceneOf(meshes, shadowSide);
     const light = new SunLight(0xffffff, Math.PI);
     light.position.copy(toSun);
     light.castShadow = true;
     set(light, scene);
-    light.shadow.mapSize.set(size, size);
+    light.shadow.mapSize.set(side, side);
     scene.add(light);
     return { scene, prepare() {}, dispose: () => light.dispose() };
   };
-  const csm = (make) => () => {
+  const csm = (make, side = size) => () => {
     const { scene, material } = sceneOf(meshes, shadowSide);
-    const shadows = make({ parent: scene, camera, cascades: 4, maxFar: FAR, shadowMapSize: size, lightDirection: toSun.clone().negate(), lightIntensity: Math.PI });
+    const shadows = make({ parent: scene, camera, cascades: 4, maxFar: FAR, shadowMapSize: side, lightDirection: toSun.clone().negate(), lightIntensity: Math.PI });
     shadows.setupMaterial(material);
     shadows.updateFrustums();
     return { scene, prepare: () => shadows.update(), dispose() { shadows.remove(); shadows.dispose(); } };
@@ -72,13 +72,22 @@ function techniquesOf(gnomon, camera, { meshes, toSun, lamp, shadowSide, biases 
     for (const [name, options] of Object.entries(FITS)) all[`${own}, ${name}`] = local((light, scene) => { light.shadow = new Shadow(gnomon, scene, { resolution, options }); });
     return all;
   }
+  const gnomonSun = (options, side) => sun((light, scene) => { light.shadow = new GnomonSunShadow(gnomon, scene, { resolution, options }); }, side);
+  const gnomonCsm = (options, side) => csm((data) => new GnomonCSM(gnomon, { ...data, resolution, options }), side);
+  if (sweep === 'texels') {
+    all.SunLight = ownSun(biases?.[size].sun ?? [0, 0]);
+    for (const times of [1, 2, 4]) all[`SunLight, gnomon, ${times * size}`] = gnomonSun({ fit: 'tight' }, times * size);
+    all.CSM = ownCsm(biases?.[size].csm ?? [0, 0]);
+    for (const times of [1, 2, 4]) all[`CSM, gnomon, ${times * size}`] = gnomonCsm({ fit: 'tight' }, times * size);
+    return all;
+  }
   if (sweep) {
     for (const bias of BIASES.sun[0]) for (const normal of BIASES.sun[1]) all[`SunLight ${bias} ${normal}`] = ownSun([bias, normal]);
     for (const bias of BIASES.csm[0]) for (const normal of BIASES.csm[1]) all[`CSM ${bias} ${normal}`] = ownCsm([bias, normal]);
     return all;
   }
   all.SunLight = ownSun(biases?.[size].sun ?? [0, 0]);
-  for (const [name, options] of Object.entries(FITS)) all[`SunLight, ${name}`] = sun((light, scene) => { light.shadow = new GnomonSunShadow(gnomon, scene, { resolution, options }); });
+  for (const [name, options] of Object.entries(FITS)) all[`SunLight, ${name}`] = gnomonSun(options);
   const slope = (shadow, bias) => {
     shadow.bias = bias;
     for (let i = 0; i < shadow.getViewportCount(); ++i) shadow.getCamera(i).userData.gnomonSlope = SLOPED.factor;
@@ -98,7 +107,7 @@ function techniquesOf(gnomon, camera, { meshes, toSun, lamp, shadowSide, biases 
       return shadows;
     });
   }
-  for (const [name, options] of Object.entries(FITS)) all[`CSM, ${name}`] = csm((data) => new GnomonCSM(gnomon, { ...data, resolution, options }));
+  for (const [name, options] of Object.entries(FITS)) all[`CSM, ${name}`] = gnomonCsm(options);
   return all;
 }
 

@@ -20,7 +20,7 @@ test('each cascade has the matrix of its map, and serves its depths', TIMEOUT, a
     // Single precision, over maps of hundreds of texels and a few hundred world units.
     assert.ok(one.texels < 0.01 && one.depth < 1e-6, text);
     one.distances.forEach((distance, i) => assert.equal(distance, Math.fround(one.ends[Math.min(i, one.maps - 1)]), text));
-    assert.deepEqual([one.missing, one.slope, one.normal], [0, 2, 0], text);
+    assert.deepEqual([one.missing, one.slope, one.normal], [0, one.fit === 'stable' ? 2.45 : 2, 0], text);
   }
 });
 
@@ -63,9 +63,6 @@ test('a flight of its cascades is the shipped capture', TIMEOUT, async () => {
   assert.deepEqual(judged(capture) ?? ['bias_small'], ['bias_small']);
 });
 
-// The grid that never moves is not held to more than it has: see docs/web.md.
-const STEADY = /stable$/;
-
 for (const scene of ['street', 'low sun']) {
   test(`PlayCanvas misclassifies fewer pixels with the maps of gnomon: ${scene}`, TIMEOUT, async () => {
     const { rows } = await fly(scene, 512, 8, { engine: 'playcanvas' });
@@ -74,7 +71,7 @@ for (const scene of ['street', 'low sun']) {
     for (const row of ours) {
       console.log(`${scene}, ${row.technique}: ${(row.wrong / theirs.wrong).toFixed(2)} misclassified, ${(row.flips / theirs.flips).toFixed(2)} flips, acne ${row.acne.toFixed(5)} to ${theirs.acne.toFixed(5)}`);
       assert.ok(row.counted > 8 * 50000);
-      if (!STEADY.test(row.technique)) assert.ok(row.wrong <= 0.7 * theirs.wrong && row.acne <= theirs.acne, JSON.stringify([theirs, row]));
+      assert.ok(row.wrong <= (row.technique.endsWith('stable') ? 0.8 : 0.7) * theirs.wrong && row.acne <= theirs.acne, JSON.stringify([theirs, row]));
     }
   });
 }

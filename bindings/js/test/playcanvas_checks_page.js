@@ -51,7 +51,7 @@ async function matrices(gnomon) {
     place.draw(sun);
     const { maps } = shadows.plan;
     found.push({
-      cascades, maps: maps.length, ...offBy(place, sun.light, shadows.plan), ends: maps.map(({ depthEnd }) => depthEnd), distances: [...sun.light._shadowCascadeDistances],
+      cascades, fit, maps: maps.length, ...offBy(place, sun.light, shadows.plan), ends: maps.map(({ depthEnd }) => depthEnd), distances: [...sun.light._shadowCascadeDistances],
       // What each map draws holds all that gnomon culls for it.
       missing: maps.flatMap((map, i) => {
         const drawn = new Set(sun.light.getRenderData(place.eye.camera.camera, i).visibleCasters);
