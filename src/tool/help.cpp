@@ -33,10 +33,11 @@ std::string entry(const std::string& name, const std::string& text) {
   return out + wrapped(text, kIndent, kIndent) + "\n";
 }
 
-/// " (1 to 8; default 4)": what the option's help leaves to the table.
-std::string limits_of(const Option& option) {
+/// " (1 to 8; default: 4)": what the option's help leaves to the table.
+std::string limits_of(const Option& option, std::string_view footer) {
   std::string limits;
   const auto add = [&limits](const std::string& text) { limits += (limits.empty() ? "" : "; ") + text; };
+  if (const std::string values = values_word(option, footer); !values.empty()) add(values);
   if (option.range) add(number_word((*option.range)[0]) + " to " + number_word((*option.range)[1]));
   if (const std::string value = default_word(option); !value.empty()) add("default: " + value);
   if (!option.needs.empty()) add("needs " + option.needs);
@@ -59,9 +60,10 @@ std::string command_page(const std::string& words, const std::string& summary, c
       const std::string word = positional_word(option);
       usage += " " + word;
       const std::size_t bracket = word.starts_with('[') ? 1 : 0;
-      positionals += entry(word.substr(bracket, word.size() - 2 * bracket), option.help + limits_of(option));
+      positionals += entry(word.substr(bracket, word.size() - 2 * bracket),
+                           option.help + limits_of(option, arguments.footer));
     } else {
-      options += entry(option_name(option), option.help + limits_of(option));
+      options += entry(option_name(option), option.help + limits_of(option, arguments.footer));
     }
   }
   std::string out = wrapped(words + ": " + summary, 0, 0) + "\n" + usage + "\n";

@@ -25,11 +25,13 @@ std::string roff(std::string_view text) {
   return out;
 }
 
-std::string option_entry(const Option& option) {
+std::string option_entry(const Option& option, std::string_view footer) {
   std::string out = ".TP\n.B " + roff(option.name);
   if (const std::string word = value_word(option); !word.empty() && option.name.starts_with('-'))
     out += " \\fI" + roff(word) + "\\fR";
   out += "\n" + roff(option.help) + ".";
+  if (const std::string values = values_word(option, footer); !values.empty())
+    out += " One of " + roff(values) + ".";
   if (option.range)
     out += " From " + roff(number_word((*option.range)[0])) + " to " + roff(number_word((*option.range)[1])) +
            ".";
@@ -69,7 +71,7 @@ std::string command_page(const std::string& title, const std::string& words, con
                     synopsis_of(arguments).substr(1) + "\n";
   if (!arguments.footer.empty()) out += ".SH DESCRIPTION\n.nf\n" + roff(arguments.footer) + "\n.fi\n";
   out += ".SH OPTIONS\n";
-  for (const Option& option : arguments.options) out += option_entry(option);
+  for (const Option& option : arguments.options) out += option_entry(option, arguments.footer);
   return out + ".TP\n.B \\-\\-help\nPrint help.\n.TP\n.B \\-\\-version\nPrint the version.\n" +
          exit_status(arguments);
 }

@@ -24,6 +24,16 @@ std::string comma_list(const Words& words) {
   return all;
 }
 
+/// Whether `text` has `word` as one of its words.
+bool has_word(std::string_view text, std::string_view word) {
+  const auto joins = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; };
+  for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !joins(text[at - 1])) && (end == text.size() || !joins(text[end]))) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 std::string upper(std::string text) {
@@ -90,6 +100,14 @@ std::string default_word(const Option& option) {
         }
       },
       option.target);
+}
+
+std::string values_word(const Option& option, std::string_view footer) {
+  const auto is_said = [&](const std::string& name) {
+    return has_word(option.help, name) || has_word(footer, name);
+  };
+  if (std::all_of(option.names.begin(), option.names.end(), is_said)) return {};
+  return any_of_text(option.names);
 }
 
 std::string positional_word(const Option& option) {

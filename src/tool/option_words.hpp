@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "command.hpp"
 
@@ -15,6 +16,8 @@ namespace gnomon::tool {
 [[nodiscard]] std::string value_word(const Option& option);
 /// The value that an option has when it is not given; empty where there is none.
 [[nodiscard]] std::string default_word(const Option& option);
+/// "a, b or c": the values that an option takes, where neither its help nor the footer has all of them.
+[[nodiscard]] std::string values_word(const Option& option, std::string_view footer);
 /// True where the option takes several words.
 [[nodiscard]] bool takes_list(const Option& option);
 [[nodiscard]] bool is_positional(const Option& option);

@@ -184,9 +184,7 @@ Option compare_warps_option(std::vector<const Warp*>& warps) {
 /// What a plan may choose.
 std::vector<Option> map_options(Request& request) {
   PlanOptions& plan = request.options.plan;
-  Option split = plan_option(
-      "split", plan,
-      "how view depths are divided: auto, uniform, logarithmic, practical, pseudo_near or optimal");
+  Option split = plan_option("split", plan);
   std::erase(split.names, "given");  // a command line has no list of splits
   split.given = &request.split_given;
   Option lambda = plan_option("lambda", plan);
@@ -196,11 +194,11 @@ std::vector<Option> map_options(Request& request) {
       split,
       lambda,
       plan_option("near_hint", plan),
-      plan_option("warp", plan, "perspective warp of the maps: " + any_of_text(plan_choice_names("warp"))),
+      plan_option("warp", plan),
       compare_warps_option(request.options.compared_warps),
-      plan_option("objective", plan, "error that the warp minimises: storage, max or p95"),
+      plan_option("objective", plan),
       plan_option("map_size", plan),
-      plan_option("fit", plan, "how maps are fitted: tight, rotated, stable or warped_stable"),
+      plan_option("fit", plan),
       {.name = "--stable", .target = &request.stable, .help = "the same as --fit stable: texel-snapped maps"},
       {.name = "--transition",
        .target = enum_word(request.options.transition, transition_names()),
