@@ -33,6 +33,7 @@ Outside outside(const ViewSubject& subject, const std::vector<SurfaceSample>& sa
                 const glm::dvec3& origin) {
   constexpr int kCells = 24, kSides = 8;
   constexpr double kSlack = 0.5;  // cells: what lies nearer behind another surface counts as seen
+  constexpr double kAway = -0.3;  // cosine: but for what turns its back, as walls within thin walls do
   const glm::dvec3 middle = (subject.bounds.min + subject.bounds.max) * 0.5 - origin;
   const double radius = 0.5 * glm::length(subject.bounds.max - subject.bounds.min);
   const double cell = 2.0 * radius / kCells;
@@ -61,9 +62,11 @@ Outside outside(const ViewSubject& subject, const std::vector<SurfaceSample>& sa
       const double near = glm::dot(sample.at - middle, to_eye);
       if (near > one.nearest) one = {near, glm::dot(sample.normal, to_eye) > 0.0};
     }
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      if (glm::dot(samples[i].at - middle, to_eye) > cell_of(samples[i]).nearest - kSlack * cell)
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const bool faces = samples[i].two_sided || glm::dot(samples[i].normal, to_eye) > kAway;
+      if (faces && glm::dot(samples[i].at - middle, to_eye) > cell_of(samples[i]).nearest - kSlack * cell)
         is_seen[i] = true;
+    }
     for (const Cell& one : cells) {
       all += std::isfinite(one.nearest);
       front += std::isfinite(one.nearest) && one.front;

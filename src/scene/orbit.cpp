@@ -137,14 +137,15 @@ bool is_over(const Scene& scene, const std::vector<Piece>& lands, const CameraPa
   return true;
 }
 
-// Puts the fullest picture in the middle of the orbit, as near to the front of the scene (+Z) as that allows.
-// Returns the covered share there.
+// Puts the fullest picture in the middle of the orbit, as near to the front of the scene (+Z) as that allows,
+// and behind it only where the front shows next to nothing. Returns the covered share there.
 double show_well(CameraPath& path, const std::vector<SurfaceSample>& samples, double aspect) {
   constexpr int kAside = kKeys / 5;  // keys to each side of the front: 67 degrees
-  constexpr double kNearlyBest = 0.8;
-  constexpr int kHeight = 90;  // pixels; only their ratio counts
+  constexpr std::size_t kOfFront = 2 * kAside + 1;
+  constexpr double kNearlyBest = 0.8, kNextToNothing = 0.25;  // of the best
+  constexpr int kHeight = 90;                                 // pixels; only their ratio counts
   std::vector<std::size_t> keys;
-  for (int aside = 0; aside <= kAside; ++aside) {
+  for (int aside = 0; aside < kKeys / 2; ++aside) {
     keys.push_back(static_cast<std::size_t>(aside));
     if (aside > 0) keys.push_back(static_cast<std::size_t>(kKeys - aside));
   }
@@ -155,7 +156,9 @@ double show_well(CameraPath& path, const std::vector<SurfaceSample>& samples, do
     shares.push_back(
         covered_share(samples, still.at(0.0, static_cast<int>(std::lround(kHeight * aspect)), kHeight)));
   }
-  const double best = *std::max_element(shares.begin(), shares.end());
+  double best = *std::max_element(shares.begin(), shares.begin() + kOfFront);
+  const double best_of_all = *std::max_element(shares.begin(), shares.end());
+  if (best < kNextToNothing * best_of_all) best = best_of_all;
   std::size_t chosen = 0;
   while (shares[chosen] < kNearlyBest * best) ++chosen;
   put_in_the_middle(path, keys[chosen]);

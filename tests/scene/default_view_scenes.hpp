@@ -374,6 +374,13 @@ inline std::vector<ViewScene> default_view_scenes() {
     s.inside({0, 0, 0}, {26.5, 3.5, 26.5});
   }
   {
+    ViewScene& s = scene("room_in_a_thin_shell_on_a_plate");
+    s.content(PartMesh().box({-3, 0, -4}, {3, 2.6, 4}, true));
+    s.content(PartMesh().box({-3.2, -0.2, -4.2}, {3.2, 2.8, 4.2}));
+    s.content(PartMesh().box({-0.6, 0, -0.6}, {0.6, 0.75, 0.6})).backdrop(PartMesh().floor(60.0, -0.2));
+    s.inside({-3, 0, -4}, {3, 2.6, 4});
+  }
+  {
     ViewScene& s = scene("house_on_lawn");
     s.content(PartMesh().box({-5, 0, -4}, {5, 3, 4})).backdrop(PartMesh().floor(20.0, 0.0));
     PartMesh roof;

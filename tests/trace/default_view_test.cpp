@@ -84,6 +84,19 @@ TEST_P(DefaultView, shows_content_in_a_quarter_of_the_picture) {
   EXPECT_GE(least, kAround);
 }
 
+TEST(DefaultViewOfOneSide, is_from_before_it_wherever_it_faces) {
+  for (int turn = 0; turn < 8; ++turn) {
+    const double angle = turn * std::numbers::pi / 4;
+    const glm::dvec3 right(3.0 * std::cos(angle), 0.0, -3.0 * std::sin(angle)), up(0.0, 3.0, 0.0);
+    ViewScene wall("wall");
+    wall.content(PartMesh().quad(-right, right, right + up, -right + up));
+    const Scene scene = wall.gltf.load();
+    const Camera camera = default_path(scene, 1.0 * kWidth / kHeight).at(0.5, kWidth, kHeight);
+    EXPECT_TRUE(shown_of(trace::Tracer(scene, trace::Engine::own), content_of(scene), camera).fills())
+        << turn;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(All, DefaultView, testing::ValuesIn(default_view_scenes()),
                          [](const auto& scene) { return scene.param.name; });
 
