@@ -38,6 +38,8 @@ namespace gnomon::detail {
 /// Whether this build decodes the data of this extension.
 [[nodiscard]] bool decodes(std::string_view extension) noexcept;
 
+/// Whether what the extension says is read, or is nothing that shadows depend on.
+[[nodiscard]] bool is_supported(std::string_view extension);
 /// Stops with the name of the first extension in extensionsRequired that is not supported.
 void check_extensions(const nlohmann::json& source);
 

@@ -4,7 +4,9 @@
 // closed.
 #include "gltf_document.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <map>
 
 #include "base/json_words.hpp"
 #include "glb.hpp"
@@ -29,17 +31,34 @@ json parse_json(std::string_view text) {
   }
 }
 
-// Extensions that change what is seen, and that a file may use without requiring.
+// How often each extension stands anywhere in the document.
+std::map<std::string, std::size_t> extension_uses(const json& source) {
+  std::map<std::string, std::size_t> uses;
+  std::vector<const json*> open{&source};
+  while (!open.empty()) {
+    const json& value = *open.back();
+    open.pop_back();
+    if (const json* extensions = find_object(value, "extensions"))
+      for (const auto& [name, of] : extensions->items()) ++uses[name];
+    if (!value.is_structured()) continue;
+    for (const json& inner : value) open.push_back(&inner);
+  }
+  return uses;
+}
+
+// Extensions that a file uses without requiring, and that are not read: one line each.
 void warn_of_extensions(const json& source, std::vector<std::string>& warnings) {
   const auto used = source.find("extensionsUsed");
   if (used == source.end() || !used->is_array()) return;
-  for (const char* name :
-       {"KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_texture_webp", "KHR_texture_basisu"}) {
-    for (const json& entry : *used) {
-      if (entry == name && !decodes(name))
-        warn(warnings, "extensionsUsed",
-             std::string(name) + " is not supported, fallbacks are used: " + remedy_for(name));
-    }
+  const std::map<std::string, std::size_t> uses = extension_uses(source);
+  for (const auto& [name, count] : uses) {
+    if (std::find(used->begin(), used->end(), name) == used->end() || is_supported(name)) continue;
+    const std::string remedy = remedy_for(name);
+    warn(warnings, "extensionsUsed",
+         one_line(name) + " is not supported, " +
+             (remedy.empty() ? "what it says does not count" : "fallbacks are used") + " (" +
+             std::to_string(count) + (count == 1 ? " place)" : " places)") +
+             (remedy.empty() ? "" : ": " + remedy));
   }
 }
 
@@ -109,24 +128,39 @@ std::vector<ImageSource> list_images(const json& source) {
   return out;
 }
 
-double number_or(const json& list, std::size_t i, double otherwise) {
-  return list.is_array() && i < list.size() && list[i].is_number() ? list[i].get<double>() : otherwise;
-}
-
-std::optional<TextureTransform> texture_transform(const json& texture_info) {
+std::optional<TextureTransform> texture_transform(const json& texture_info, const std::string& of,
+                                                  std::vector<std::string>& warnings) {
+  constexpr const char* kName = "KHR_texture_transform";
   const json* extensions = find_object(texture_info, "extensions");
-  const json* found = extensions == nullptr ? nullptr : find_object(*extensions, "KHR_texture_transform");
-  if (found == nullptr) return std::nullopt;
-  TextureTransform out;
-  for (std::size_t i = 0; i < 2; ++i) {
-    out.offset[i] = number_or(found->value("offset", json()), i, 0.0);
-    out.scale[i] = number_or(found->value("scale", json()), i, 1.0);
+  if (extensions == nullptr || !extensions->contains(kName)) return std::nullopt;
+  const std::string where = of + "." + kName;
+  const json* found = find_object(*extensions, kName);
+  if (found == nullptr) {
+    warn(warnings, where, "is no object, and does not count");
+    return std::nullopt;
   }
-  const auto rotation = found->find("rotation");
-  if (rotation != found->end() && rotation->is_number()) out.rotation = rotation->get<double>();
-  const auto set = found->find("texCoord");
-  if (set != found->end() && set->is_number_unsigned())
-    out.texcoord = static_cast<int>(set->get<std::uint16_t>());
+  TextureTransform out;
+  // Each field by itself, where it is what it should be.
+  const auto take = [&](const char* key, const char* what, const auto& is_right, const auto& set) {
+    const auto field = found->find(key);
+    if (field == found->end()) return;
+    if (is_right(*field))
+      set(*field);
+    else
+      warn(warnings, where + "." + key, std::string("is not ") + what + ", and does not count");
+  };
+  const auto is_number = [](const json& value) { return value.is_number(); };
+  const auto is_pair = [](const json& value) {
+    return value.is_array() && value.size() == 2 && value[0].is_number() && value[1].is_number();
+  };
+  const auto is_set = [](const json& value) {
+    return value.is_number_unsigned() && value.get<std::uint64_t>() <= UINT16_MAX;
+  };
+  take("offset", "two numbers", is_pair, [&](const json& value) { value.get_to(out.offset); });
+  take("scale", "two numbers", is_pair, [&](const json& value) { value.get_to(out.scale); });
+  take("rotation", "a number", is_number, [&](const json& value) { value.get_to(out.rotation); });
+  take("texCoord", "a number of texture coordinates", is_set,
+       [&](const json& value) { value.get_to(out.texcoord); });
   return out;
 }
 
@@ -159,14 +193,19 @@ void adopt_webp(json& source) {
   }
 }
 
-std::vector<std::optional<TextureTransform>> list_transforms(const json& source) {
+std::vector<std::optional<TextureTransform>> list_transforms(const json& source,
+                                                             std::vector<std::string>& warnings) {
   std::vector<std::optional<TextureTransform>> out;
   const auto materials = source.find("materials");
   if (materials == source.end()) return out;
   for (const json& material : *materials) {
     const json* base = find_object(material, "pbrMetallicRoughness");
     const json* texture = base == nullptr ? nullptr : find_object(*base, "baseColorTexture");
-    out.push_back(texture == nullptr ? std::nullopt : texture_transform(*texture));
+    out.push_back(texture == nullptr ? std::nullopt
+                                     : texture_transform(*texture,
+                                                         element("materials", out.size()) +
+                                                             ".pbrMetallicRoughness.baseColorTexture",
+                                                         warnings));
   }
   return out;
 }
@@ -281,7 +320,7 @@ Document open_document(std::span<const std::uint8_t> bytes, SceneFolder& folder,
   decode_meshopt_views(compressed);
   decode_draco_primitives(compressed);
   out.images = list_images(source);
-  out.transforms = list_transforms(source);
+  out.transforms = list_transforms(source, warnings);
   out.transmissions = list_transmissions(source, warnings);
   out.motion = read_motion_source(source, warnings);
   out.placement = read_placement_source(source, warnings);

@@ -32,8 +32,10 @@ class ImageReader {
       it->second = static_cast<int>(scene_.images.size() - 1);
     } catch (const std::runtime_error& e) {
       ++failures_;
-      warn(scene_.warnings, element("images", static_cast<std::size_t>(source)),
-           std::string(e.what()) + "; shown white");
+      const std::string where = element("images", static_cast<std::size_t>(source));
+      // A picture without a name is named by its place already.
+      const bool named = std::string_view(e.what()).starts_with(where + ": ");
+      warn(scene_.warnings, (named ? "" : where + ": ") + std::string(e.what()) + "; shown white");
     }
     return it->second;
   }
@@ -57,10 +59,21 @@ class ImageReader {
   std::map<int, int> loaded_;
 };
 
-TextureWrap to_wrap(int mode) {
+TextureWrap to_wrap(int mode, const std::string& where, std::vector<std::string>& warnings) {
   if (mode == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return TextureWrap::clamp_to_edge;
   if (mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT) return TextureWrap::mirrored_repeat;
+  if (mode != TINYGLTF_TEXTURE_WRAP_REPEAT)
+    warn(warnings, where, std::to_string(mode) + " is no way to wrap, the picture repeats");
   return TextureWrap::repeat;
+}
+
+AlphaMode to_alpha_mode(const std::string& word, const std::string& where,
+                        std::vector<std::string>& warnings) {
+  if (word == "MASK") return AlphaMode::mask;
+  if (word == "BLEND") return AlphaMode::blend;
+  if (!word.empty() && word != "OPAQUE")
+    warn(warnings, where, "'" + one_line(word) + "' is none of OPAQUE, MASK and BLEND, shown opaque");
+  return AlphaMode::opaque;
 }
 
 Material to_material(const Document& document, std::size_t index, ImageReader& images, Scene& scene) {
@@ -72,8 +85,8 @@ Material to_material(const Document& document, std::size_t index, ImageReader& i
     out.base_color[static_cast<int>(c)] = static_cast<float>(std::clamp(base.baseColorFactor[c], 0.0, 1.0));
   }
   if (index < document.transmissions.size()) out.transmission = document.transmissions[index];
-  if (source.alphaMode == "MASK") out.alpha_mode = AlphaMode::mask;
-  if (source.alphaMode == "BLEND") out.alpha_mode = AlphaMode::blend;
+  out.alpha_mode =
+      to_alpha_mode(source.alphaMode, element("materials", index) + ".alphaMode", scene.warnings);
   if (out.alpha_mode == AlphaMode::mask)
     out.alpha_cutoff = static_cast<float>(std::max(source.alphaCutoff, 0.0));
   out.double_sided = source.doubleSided;
@@ -87,9 +100,10 @@ Material to_material(const Document& document, std::size_t index, ImageReader& i
   }
   out.base_color_image = images.image(texture.source);
   if (texture.sampler >= 0) {
-    const tinygltf::Sampler& sampler = document.model.samplers[static_cast<std::size_t>(texture.sampler)];
-    out.wrap_u = to_wrap(sampler.wrapS);
-    out.wrap_v = to_wrap(sampler.wrapT);
+    const auto s = static_cast<std::size_t>(texture.sampler);
+    const tinygltf::Sampler& sampler = document.model.samplers[s];
+    out.wrap_u = to_wrap(sampler.wrapS, element("samplers", s) + ".wrapS", scene.warnings);
+    out.wrap_v = to_wrap(sampler.wrapT, element("samplers", s) + ".wrapT", scene.warnings);
   }
   return out;
 }

@@ -10,6 +10,7 @@
 #include "gltf_accessor.hpp"
 #include "gltf_animation.hpp"
 #include "gltf_skin.hpp"
+#include "marks.hpp"
 #include "refusal.hpp"
 #include "triangles.hpp"
 
@@ -183,7 +184,8 @@ std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive, 
   const std::string where = element("meshes", m) + "." + element("primitives", primitive);
   const tinygltf::Primitive& source = document_.model.meshes[m].primitives[primitive];
   const char* why = nullptr;
-  if (source.mode < kFirstTriangleMode) why = "points and lines cast no shadow, skipped";
+  const bool marks = source.mode < kFirstTriangleMode;
+  if (marks && bending != nullptr) why = "points and lines follow no skin and no morph target, skipped";
   if (attribute(source, "POSITION") < 0) why = "has no POSITION, skipped";
   if (document_.compressed[m][primitive]) why = "is compressed with Draco, skipped";
   if (why != nullptr) {
@@ -193,11 +195,37 @@ std::optional<std::uint32_t> MeshReader::build(int mesh, std::size_t primitive, 
   if (bending != nullptr && bending->joints != nullptr)
     return build_triangles(mesh, primitive, where, bending);
   try {
-    return build_triangles(mesh, primitive, where, bending);
+    return marks ? build_marks(mesh, primitive, where) : build_triangles(mesh, primitive, where, bending);
   } catch (const LeftOut& e) {
     warn(scene_.warnings, where, std::string(e.what()) + ", skipped");
     return std::nullopt;
   }
+}
+
+std::uint32_t MeshReader::build_marks(int mesh, std::size_t primitive, const std::string& where) {
+  const auto m = static_cast<std::size_t>(mesh);
+  const tinygltf::Primitive& source = document_.model.meshes[m].primitives[primitive];
+  const bool points = source.mode == TINYGLTF_MODE_POINTS;
+  const Vertices vertices = read_vertices(attributes_of(source), where);
+  vertices_left_ += vertices.positions.size();  // those of the marks are stored in their place
+  std::vector<std::uint32_t> corners = read_corners(mesh, primitive, vertices.positions.size(), where);
+  if (!points) corners = line_list(source.mode, corners);
+  const std::uint64_t count = points ? corners.size() : corners.size() / 2;
+  spend_vertices(count * (points ? kPointVertices : kLineVertices), where);
+  spend_corners(count * 3 * (points ? kPointTriangles : kLineTriangles), where);
+  float width = static_cast<float>(document_.placement.mark_widths[m]);
+  if (!(width > 0.0f)) {
+    width = guessed_width(vertices.positions, corners, points);
+    if (width > 0.0f)
+      warn(scene_.warnings, where,
+           "points and lines have no width, one is guessed: \"markWidth\" in the extras of their mesh sets "
+           "it");
+  }
+  std::vector<std::uint32_t> triangles;
+  const Vertices marks = points ? point_marks(vertices, corners, width, triangles)
+                                : line_marks(vertices, corners, width, triangles);
+  if (triangles.empty() || !(width > 0.0f)) throw LeftOut("its points or lines have no extent");
+  return store(append(marks), triangles, source.material);
 }
 
 std::uint32_t MeshReader::build_triangles(int mesh, std::size_t primitive, const std::string& where,
@@ -382,12 +410,10 @@ std::vector<Vec> MeshReader::read_optional(int accessor, std::size_t count, cons
   }
 }
 
-std::vector<std::uint32_t> MeshReader::read_triangles(int mesh, std::size_t primitive,
-                                                      std::size_t vertex_count, const std::string& where) {
-  const auto m = static_cast<std::size_t>(mesh);
-  const tinygltf::Primitive& source = document_.model.meshes[m].primitives[primitive];
+std::vector<std::uint32_t> MeshReader::read_corners(int mesh, std::size_t primitive, std::size_t vertex_count,
+                                                    const std::string& where) {
   std::vector<std::uint32_t> corners;
-  if (const int indices = document_.indices[m][primitive]; indices >= 0) {
+  if (const int indices = document_.indices[static_cast<std::size_t>(mesh)][primitive]; indices >= 0) {
     corners = read_integers(document_.model, indices, 1, corners_left_);
   } else {
     corners.resize(vertex_count);
@@ -399,13 +425,17 @@ std::vector<std::uint32_t> MeshReader::read_triangles(int mesh, std::size_t prim
                                std::to_string(vertex_count) + " vertices");
     }
   }
+  return corners;
+}
+
+std::vector<std::uint32_t> MeshReader::read_triangles(int mesh, std::size_t primitive,
+                                                      std::size_t vertex_count, const std::string& where) {
+  const tinygltf::Primitive& source =
+      document_.model.meshes[static_cast<std::size_t>(mesh)].primitives[primitive];
+  std::vector<std::uint32_t> corners = read_corners(mesh, primitive, vertex_count, where);
   const std::size_t given = corners.size();
   std::vector<std::uint32_t> triangles = triangle_list(source.mode, std::move(corners));
-  const std::uint64_t spent = std::max(given, triangles.size());
-  if (spent > corners_left_) {
-    throw Refusal(where, "takes the scene above " + std::to_string(limits_.triangles) + " triangles");
-  }
-  corners_left_ -= spent;
+  spend_corners(std::max(given, triangles.size()), where);
   if (triangles.empty()) throw LeftOut("has no triangle");
   if (source.mode == kFirstTriangleMode && given % 3 != 0) {
     warn(scene_.warnings, where, "its last triangle is not whole, skipped");
@@ -476,6 +506,13 @@ void MeshReader::spend_vertices(std::uint64_t count, const std::string& where) {
     throw Refusal(where, "takes the scene above " + std::to_string(limits_.vertices) + " vertices");
   }
   vertices_left_ -= count;
+}
+
+void MeshReader::spend_corners(std::uint64_t count, const std::string& where) {
+  if (count > corners_left_) {
+    throw Refusal(where, "takes the scene above " + std::to_string(limits_.triangles) + " triangles");
+  }
+  corners_left_ -= count;
 }
 
 }  // namespace gnomon::detail

@@ -56,6 +56,8 @@ class MeshReader {
   std::optional<std::uint32_t> build(int mesh, std::size_t primitive, const Bending* bending);
   std::uint32_t build_triangles(int mesh, std::size_t primitive, const std::string& where,
                                 const Bending* bending);
+  /// Points and lines as triangles.
+  std::uint32_t build_marks(int mesh, std::size_t primitive, const std::string& where);
   void spend_bent(int node);
   /// Moves the vertices by the targets of the primitive, as the node's weights at rest say.
   void morph(int mesh, std::size_t primitive, const std::string& where, int node, Vertices& vertices);
@@ -69,6 +71,9 @@ class MeshReader {
   Vertices read_vertices(const Attributes& attributes, const std::string& where);
   template <class Vec>
   std::vector<Vec> read_optional(int accessor, std::size_t count, const char* name, const std::string& where);
+  /// Numbers of vertices, all in range.
+  std::vector<std::uint32_t> read_corners(int mesh, std::size_t primitive, std::size_t vertex_count,
+                                          const std::string& where);
   std::vector<std::uint32_t> read_triangles(int mesh, std::size_t primitive, std::size_t vertex_count,
                                             const std::string& where);
   /// Drops triangles that vertex colours make invisible: by an alpha mask, or wholly transparent. Throws
@@ -78,6 +83,7 @@ class MeshReader {
   Range append(const Vertices& vertices);
   std::uint32_t store(Range range, const std::vector<std::uint32_t>& triangles, int material);
   void spend_vertices(std::uint64_t count, const std::string& where);
+  void spend_corners(std::uint64_t count, const std::string& where);
 
   const Document& document_;
   const NodeTree& tree_;

@@ -139,10 +139,31 @@ int proxy_of(const json& source, const NodesByName& by_name, std::size_t n,
   }
 }
 
+std::vector<double> mark_widths(const json& source, std::vector<std::string>& warnings) {
+  constexpr const char* kName = "markWidth";
+  constexpr double kMost = 1e30;
+  std::vector<double> out;
+  const auto meshes = source.find("meshes");
+  if (meshes == source.end() || !meshes->is_array()) return out;
+  for (const json& mesh : *meshes) {
+    out.push_back(0.0);
+    const json* extras = find_object(mesh, "extras");
+    if (extras == nullptr || !extras->contains(kName)) continue;
+    const json& value = extras->at(kName);
+    if (value.is_number() && value.get<double>() > 0.0 && value.get<double>() <= kMost)
+      out.back() = value.get<double>();
+    else
+      warn(warnings, element("meshes", out.size() - 1) + ".extras." + kName,
+           "is no number above 0, and does not count");
+  }
+  return out;
+}
+
 }  // namespace
 
 PlacementSource read_placement_source(const json& source, std::vector<std::string>& warnings) {
   PlacementSource out;
+  out.mark_widths = mark_widths(source, warnings);
   const auto nodes = source.find("nodes");
   if (nodes == source.end() || !nodes->is_array()) return out;
   const NodesByName by_name = nodes_by_name(*nodes);

@@ -31,6 +31,8 @@ struct PlacementSource {
   std::vector<Shadows> shadows;
   /// The node whose mesh casts in its place, by `extras.shadowProxy`; -1: none.
   std::vector<int> proxies;
+  /// Of each mesh: width of its points and lines in its own space, by `extras.markWidth`; 0: not said.
+  std::vector<double> mark_widths;
   /// Is shown nowhere, as its mesh casts for others.
   [[nodiscard]] bool is_proxy(int node) const { return proxy_nodes.contains(node); }
   std::set<int> proxy_nodes;

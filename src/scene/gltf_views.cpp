@@ -80,6 +80,7 @@ template <class Source, class Read>
 std::vector<std::optional<Source>> entries(const json* list, const std::string& kind, Read&& read,
                                            std::vector<std::string>& warnings) {
   std::vector<std::optional<Source>> out;
+  if (list != nullptr && !list->is_array()) warn(warnings, kind, "is no list, skipped");
   for (std::size_t i = 0; list != nullptr && list->is_array() && i < list->size(); ++i) {
     const std::string where = element(kind, i);
     out.emplace_back();
@@ -93,14 +94,26 @@ std::vector<std::optional<Source>> entries(const json* list, const std::string& 
   return out;
 }
 
-/// The entry that a node's `owner` names; nothing where it names none, or one that is not there. One without
-/// a name has its node's.
+/// The entry that a node's `owner` names; nothing where it names none, or one that is broken or not there,
+/// which is warned of. One without a name has its node's.
 template <class Source>
-std::optional<Source> named_by(const json* owner, const char* key,
-                               const std::vector<std::optional<Source>>& all, const json& node) {
-  if (owner == nullptr || !owner->contains(key) || !(*owner)[key].is_number_unsigned()) return std::nullopt;
-  const auto index = (*owner)[key].get<std::size_t>();
-  if (index >= all.size() || !all[index]) return std::nullopt;
+std::optional<Source> named_by(const json* owner, const char* key, const std::string& where,
+                               const std::vector<std::optional<Source>>& all, const json& node,
+                               std::vector<std::string>& warnings) {
+  if (owner == nullptr || !owner->contains(key)) return std::nullopt;
+  const json& number = (*owner)[key];
+  const std::string what = std::string(key) + "s";
+  if (!number.is_number_unsigned()) {
+    warn(warnings, where, "is no number of one of the " + what + ", skipped");
+    return std::nullopt;
+  }
+  const auto index = number.get<std::size_t>();
+  if (index >= all.size()) {
+    warn(warnings, where,
+         "names " + element(what, index) + ", there are " + std::to_string(all.size()) + ", skipped");
+    return std::nullopt;
+  }
+  if (!all[index]) return std::nullopt;
   Source source = *all[index];
   if (source.name.empty()) source.name = name_of(node);
   if (source.name.empty()) source.name = std::to_string(index);
@@ -136,10 +149,24 @@ Light placed(Light light, const glm::dmat4& world, const Box& scene) {
 
 }  // namespace
 
+namespace {
+
+/// KHR_lights_punctual of the document or a node; nullptr where there is none, or none that is an object,
+/// which is warned of.
+const json* punctual_of(const json& owner, const std::string& where, std::vector<std::string>& warnings) {
+  constexpr const char* kName = "KHR_lights_punctual";
+  const json* extensions = find_object(owner, "extensions");
+  if (extensions == nullptr || !extensions->contains(kName)) return nullptr;
+  const json* found = find_object(*extensions, kName);
+  if (found == nullptr) warn(warnings, where + kName, "is no object, skipped");
+  return found;
+}
+
+}  // namespace
+
 ViewSource read_view_source(const json& source, std::vector<std::string>& warnings) {
   ViewSource out;
-  const json* extensions = find_object(source, "extensions");
-  const json* punctual = extensions == nullptr ? nullptr : find_object(*extensions, "KHR_lights_punctual");
+  const json* punctual = punctual_of(source, "", warnings);
   const auto list_in = [](const json* owner, const char* key) -> const json* {
     return owner != nullptr && owner->contains(key) ? &owner->at(key) : nullptr;
   };
@@ -150,10 +177,13 @@ ViewSource read_view_source(const json& source, std::vector<std::string>& warnin
   for (std::size_t n = 0; nodes != nullptr && nodes->is_array() && n < nodes->size(); ++n) {
     const json& node = (*nodes)[n];
     if (!node.is_object()) continue;
-    const json* of_node = find_object(node, "extensions");
-    const json* lit = of_node == nullptr ? nullptr : find_object(*of_node, "KHR_lights_punctual");
-    if (const auto light = named_by(lit, "light", lights, node)) out.lights.push_back({n, *light});
-    if (const auto camera = named_by(&node, "camera", cameras, node)) out.cameras.push_back({n, *camera});
+    const std::string where = element("nodes", n) + ".";
+    const json* lit = punctual_of(node, where, warnings);
+    if (const auto light =
+            named_by(lit, "light", where + "KHR_lights_punctual.light", lights, node, warnings))
+      out.lights.push_back({n, *light});
+    if (const auto camera = named_by(&node, "camera", where + "camera", cameras, node, warnings))
+      out.cameras.push_back({n, *camera});
   }
   return out;
 }

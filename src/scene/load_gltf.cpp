@@ -14,6 +14,7 @@
 #include "gltf_nodes.hpp"
 #include "gnomon/scene/load.hpp"
 #include "load_memory.hpp"
+#include "marks.hpp"
 #include "refusal.hpp"
 #include "shadow_proxy.hpp"
 
@@ -81,11 +82,14 @@ std::uint64_t announced(const detail::Document& document, std::size_t mesh, std:
   int corners = document.indices[mesh][primitive];
   const auto position = source.attributes.find("POSITION");
   if (corners < 0 && position != source.attributes.end()) corners = position->second;
-  if (corners < 0 || source.mode < TINYGLTF_MODE_TRIANGLES) return 0;
+  if (corners < 0) return 0;
   const tinygltf::Accessor& accessor = document.model.accessors[static_cast<std::size_t>(corners)];
   if (accessor.bufferView < 0) return 0;
   const auto& view = document.model.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
   const std::uint64_t count = std::min<std::uint64_t>(accessor.count, view.byteLength);
+  if (source.mode == TINYGLTF_MODE_POINTS) return count * detail::kPointTriangles;
+  if (source.mode == TINYGLTF_MODE_LINE) return count / 2 * detail::kLineTriangles;
+  if (source.mode < TINYGLTF_MODE_TRIANGLES) return count * detail::kLineTriangles;
   if (source.mode == TINYGLTF_MODE_TRIANGLES) return count / 3;
   return count < 3 ? 0 : count - 2;
 }
@@ -246,6 +250,8 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     NodePlacer placer(document, tree, limits, scene);
     for (const int node : tree.shown) placer.place(node);
     placer.place_proxies();
+    if (scene.bounds_world.empty() && scene.warnings.empty())
+      warn(scene.warnings, "scene", "has no triangles, and shows nothing");
     place_views(document.views, tree, scene);
     read_materials(document, files, limits, scene);
     if (files_hash != nullptr) *files_hash = fnv_of(bytes, files.hash());

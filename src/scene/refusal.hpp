@@ -26,8 +26,9 @@ class LeftOut : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Adds "element: what" to a scene's warnings. Stops after a number no one would read, so that a file cannot
-/// make memory out of mistakes.
+/// Adds "element: what" to a scene's warnings. Where three say the same of other elements, one line counts
+/// those that follow. Stops after a number no one would read, so that a file cannot make memory out of
+/// mistakes.
 void warn(std::vector<std::string>& warnings, const std::string& element, const std::string& what);
 /// The same of a whole line.
 void warn(std::vector<std::string>& warnings, const std::string& line);

@@ -36,13 +36,83 @@ TEST(GltfGeometry, a_mode_without_a_whole_triangle_is_skipped_with_a_warning) {
   }
 }
 
-TEST(GltfGeometry, points_and_lines_are_skipped_with_a_warning) {
+// What the triangles enclose, by the divergence theorem: positive where they face out.
+double volume_of(const Scene& scene) {
+  double volume = 0.0;
+  for (std::size_t i = 0; i + 2 < scene.indices.size(); i += 3) {
+    const auto at = [&](std::size_t k) { return glm::dvec3(scene.positions[scene.indices[i + k]]); };
+    volume += glm::dot(at(0), glm::cross(at(1), at(2))) / 6.0;
+  }
+  return volume;
+}
+
+TEST(GltfMarks, points_are_octahedra_and_lines_are_bars_of_the_width_that_extras_give) {
+  constexpr double kWidth = 0.25, kRounding = 1e-6;
+  struct Marks {
+    int mode;
+    std::uint64_t triangles;
+    double volume;
+  };
+  for (const auto& [mode, triangles, volume] :
+       {Marks{0, 4 * 8, 4 * kWidth * kWidth * kWidth / 6.0}, Marks{1, 2 * 12, 2 * kWidth * kWidth},
+        Marks{2, 4 * 12, 4 * kWidth * kWidth}, Marks{3, 3 * 12, 3 * kWidth * kWidth}}) {
+    TestGltf gltf;
+    gltf.show({{"attributes", {{"POSITION", gltf.positions(kSquare)}}}, {"mode", mode}});
+    gltf.document["meshes"][0]["extras"]["markWidth"] = kWidth;
+    const Scene scene = gltf.load();
+    EXPECT_TRUE(scene.warnings.empty());
+    EXPECT_EQ(scene.triangle_count(), triangles) << mode;
+    EXPECT_NEAR(volume_of(scene), volume, kRounding) << mode;
+    ASSERT_EQ(scene.instances.size(), 1u);
+    EXPECT_TRUE(scene.instances[0].casts && scene.instances[0].receives);
+    // Lines end at x = 0, where a loop has one across.
+    const double low = mode == 1 || mode == 3 ? 0.0 : -0.5 * kWidth;
+    EXPECT_NEAR(scene.bounds_world.min.x, low, kRounding) << mode;
+    EXPECT_NEAR(scene.bounds_world.max.y, 1.0 + 0.5 * kWidth, kRounding) << mode;
+    EXPECT_NEAR(scene.bounds_world.max.z, 0.5 * kWidth, kRounding) << mode;
+  }
+}
+
+TEST(GltfMarks, without_a_width_have_one_by_their_extent_and_a_warning) {
   for (const int mode : {0, 1, 2, 3}) {
     const Scene scene = square_as(mode, {0, 1, 2, 3});
-    EXPECT_TRUE(scene.instances.empty());
+    ASSERT_EQ(scene.instances.size(), 1u);
+    const double width = scene.bounds_world.max.z - scene.bounds_world.min.z;
+    EXPECT_GT(width, 0.001) << mode;
+    EXPECT_LT(width, 0.05) << mode;
     ASSERT_EQ(scene.warnings.size(), 1u);
-    EXPECT_NE(scene.warnings[0].find("points and lines"), std::string::npos);
+    EXPECT_NE(scene.warnings[0].find("\"markWidth\" in the extras"), std::string::npos) << scene.warnings[0];
   }
+}
+
+TEST(GltfMarks, that_have_no_extent_or_are_bent_are_skipped_and_a_broken_width_is_none) {
+  for (const auto& order : {std::vector<std::uint16_t>{2}, {1, 1}}) {
+    const Scene scene = square_as(order.size() == 1 ? 0 : 1, order);
+    EXPECT_TRUE(scene.instances.empty());
+    ASSERT_FALSE(scene.warnings.empty());
+    EXPECT_NE(scene.warnings[0].find("meshes[0].primitives[0]"), std::string::npos);
+  }
+  TestGltf gltf;
+  gltf.show({{"attributes", {{"POSITION", gltf.positions(kSquare)}}}, {"mode", 0}});
+  for (const json& width : {json("wide"), json(0), json(-1), json(1e300), json::array()}) {
+    gltf.document["meshes"][0]["extras"]["markWidth"] = width;
+    const Scene scene = gltf.load();
+    EXPECT_EQ(scene.triangle_count(), 32u);
+    ASSERT_EQ(scene.warnings.size(), 2u) << width;
+    EXPECT_EQ(scene.warnings[0].find("meshes[0].extras.markWidth: "), 0u) << scene.warnings[0];
+  }
+}
+
+TEST(GltfMarks, of_a_cloud_too_large_are_refused_before_they_are_made) {
+  TestGltf gltf;
+  gltf.show({{"attributes", {{"POSITION", gltf.positions(kSquare)}}}, {"mode", 0}});
+  LoadLimits limits;
+  limits.triangles = 31;
+  EXPECT_THROW((void)gltf.load(limits), SceneError);
+  limits.triangles = 32;
+  EXPECT_EQ(gltf.load(limits).triangle_count(), 32u);
+  limits.vertices = 23;
+  EXPECT_THROW((void)gltf.load(limits), SceneError);
 }
 
 TEST(GltfGeometry, a_list_that_ends_in_a_part_triangle_keeps_the_whole_ones) {

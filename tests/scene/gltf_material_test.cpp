@@ -209,6 +209,66 @@ TEST(GltfMaterial, a_texture_transform_moves_the_texture_coordinates) {
   EXPECT_EQ(scene.texcoords[scene.indices[2]], glm::vec2(0.5f, 4.25f));
 }
 
+TEST(GltfMaterial, a_broken_texture_transform_is_named_by_its_field_and_the_rest_counts) {
+  const std::string where = "materials[0].pbrMetallicRoughness.baseColorTexture.KHR_texture_transform";
+  const json good = {{"offset", {0.5, 0.25}}, {"scale", {2, 4}}, {"rotation", 0.0}, {"texCoord", 0}};
+  const auto load = [](const json& transform) {
+    return with_picture(small_png(), {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}})
+        .load();
+  };
+  EXPECT_TRUE(load(good).warnings.empty());
+  for (const auto& [key, value] : {std::pair{"offset", json("x")},
+                                   {"offset", json{1}},
+                                   {"scale", json{1, "x"}},
+                                   {"rotation", json::array()},
+                                   {"texCoord", json(-1)}}) {
+    json broken = good;
+    broken[key] = value;
+    const Scene scene = load(broken);
+    ASSERT_EQ(scene.warnings.size(), 1u) << key;
+    EXPECT_EQ(scene.warnings[0].find(where + "." + key + ": is not "), 0u) << scene.warnings[0];
+    const bool moved = std::string(key) != "offset";
+    EXPECT_EQ(scene.texcoords[scene.indices[0]], moved ? glm::vec2(0.5f, 0.25f) : glm::vec2(0.0f)) << key;
+  }
+  EXPECT_EQ(load(7).warnings.at(0), where + ": is no object, and does not count");
+}
+
+TEST(GltfMaterial, an_alpha_mode_or_a_wrap_that_is_not_known_is_a_warning) {
+  EXPECT_EQ(with_material({{"alphaMode", "CUTOUT"}}).load().warnings.at(0),
+            "materials[0].alphaMode: 'CUTOUT' is none of OPAQUE, MASK and BLEND, shown opaque");
+  TestGltf gltf = with_picture(small_png());
+  gltf.document["samplers"] = {{{"wrapS", 5}, {"wrapT", 10497}}};
+  gltf.document["textures"][0]["sampler"] = 0;
+  const Scene scene = gltf.load();
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_EQ(scene.warnings[0], "samplers[0].wrapS: 5 is no way to wrap, the picture repeats");
+}
+
+TEST(GltfExtensions, that_are_used_and_not_read_are_one_line_with_their_count) {
+  TestGltf gltf = one_triangle();
+  EXPECT_TRUE(gltf.load().warnings.empty());
+  gltf.document["extensionsUsed"] = {"VENDOR_magic", "KHR_materials_variants", "KHR_materials_ior",
+                                     "KHR_node_visibility", "KHR_animation_pointer"};
+  gltf.document["nodes"][0]["extensions"] = {{"VENDOR_magic", {{"extensions", {{"VENDOR_magic", 1}}}}},
+                                             {"KHR_node_visibility", json::object()}};
+  gltf.document["materials"] = {{{"extensions", {{"KHR_materials_ior", {{"ior", 1.3}}}}}}};
+  gltf.document["extensions"]["KHR_materials_variants"] = json::object();
+  EXPECT_EQ(
+      gltf.load().warnings,
+      (std::vector<std::string>{
+          "extensionsUsed: KHR_materials_variants is not supported, what it says does not count (1 place)",
+          "extensionsUsed: VENDOR_magic is not supported, what it says does not count (2 places)"}));
+}
+
+TEST(GltfWarnings, that_say_the_same_of_many_elements_are_counted_from_the_fourth_on) {
+  TestGltf gltf = one_triangle();
+  for (int i = 0; i < 300; ++i) gltf.show_node({{"camera", 7}});
+  const Scene scene = gltf.load();
+  ASSERT_EQ(scene.warnings.size(), 4u);
+  EXPECT_EQ(scene.warnings[2].find("nodes[3].camera: "), 0u) << scene.warnings[2];
+  EXPECT_EQ(scene.warnings[3], "and 297 more: names cameras[7], there are 0, skipped");
+}
+
 TEST(GltfMaterial, a_quarter_turn_of_a_texture_turns_as_the_specification_says) {
   // KHR_texture_transform: u' = cos u + sin v, v' = -sin u + cos v for rotation r.
   const json transform = {{"rotation", 1.5707963267948966}};

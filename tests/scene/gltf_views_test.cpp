@@ -71,6 +71,39 @@ TEST(GltfLights, that_are_broken_or_hidden_are_not_there) {
   EXPECT_TRUE(gltf.load().lights.empty());
 }
 
+/// The lines that a file is warned of in.
+std::vector<std::string> warnings_of(const TestGltf& gltf) {
+  return gltf.load().warnings;
+}
+
+TEST(GltfLights, that_nodes_name_wrongly_are_warned_of_by_their_place) {
+  using Lines = std::vector<std::string>;
+  TestGltf gltf = lit();
+  json& named = gltf.document["nodes"][1]["extensions"]["KHR_lights_punctual"];
+  const std::string where = "nodes[1].KHR_lights_punctual";
+  named["light"] = 99;
+  EXPECT_EQ(warnings_of(gltf), Lines{where + ".light: names lights[99], there are 3, skipped"});
+  for (const json& number : {json("sun"), json(-1), json(0.5), json()}) {
+    named["light"] = number;
+    EXPECT_EQ(warnings_of(gltf), Lines{where + ".light: is no number of one of the lights, skipped"});
+  }
+  named = 7;
+  EXPECT_EQ(warnings_of(gltf), Lines{where + ": is no object, skipped"});
+  gltf = lit();
+  gltf.document["extensions"]["KHR_lights_punctual"] = 7;
+  EXPECT_EQ(warnings_of(gltf)[0], "KHR_lights_punctual: is no object, skipped");
+  gltf.document["extensions"]["KHR_lights_punctual"] = {{"lights", 7}};
+  EXPECT_EQ(warnings_of(gltf)[0], "KHR_lights_punctual.lights: is no list, skipped");
+}
+
+TEST(GltfCameras, that_nodes_name_wrongly_are_warned_of_by_their_place) {
+  TestGltf gltf = one_triangle();
+  gltf.show_node(node("camera", 0));
+  EXPECT_EQ(warnings_of(gltf).at(0), "nodes[1].camera: names cameras[0], there are 0, skipped");
+  gltf.document["cameras"] = "none";
+  EXPECT_EQ(warnings_of(gltf).at(0), "cameras: is no list, skipped");
+}
+
 TEST(GltfCameras, look_where_their_nodes_do) {
   TestGltf gltf = one_triangle();
   gltf.document["cameras"] = {
