@@ -129,7 +129,80 @@ void cut_by_one(const SectionPlane& plane, Scene& scene) {
     if (instance.shown) scene.bounds_world.extend(instance.bounds_world);
 }
 
+// (x, y, z) to (x, z, -y).
+glm::dvec3 turned(const glm::dvec3& v) {
+  return {v.x, v.z, -v.y};
+}
+Box turned(const Box& box) {
+  if (box.empty()) return box;
+  return {{box.min.x, box.min.z, -box.max.y}, {box.max.x, box.max.z, -box.min.y}};
+}
+glm::dmat4 turned(const glm::dmat4& world_from_object) {
+  glm::dmat4 out = world_from_object;
+  for (int column = 0; column < 4; ++column)
+    out[column] = glm::dvec4(turned(glm::dvec3(out[column])), out[column].w);
+  return out;
+}
+
+// Turns the vertices of a primitive that a skin has in world space; each is its own.
+void turn_vertices(Primitive& primitive, Scene& scene) {
+  const auto first = scene.indices.begin() + primitive.first_index;
+  std::vector<std::uint32_t> vertices(first, first + primitive.index_count);
+  std::sort(vertices.begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
+  for (const std::uint32_t v : vertices) {
+    scene.positions[v] = glm::vec3(turned(glm::dvec3(scene.positions[v])));
+    scene.normals[v] = glm::vec3(turned(glm::dvec3(scene.normals[v])));
+  }
+  primitive.bounds = turned(primitive.bounds);
+}
+
+// The instances that are skies, each by its only piece.
+std::vector<std::size_t> skies_that_cast(const Scene& scene) {
+  std::vector<std::size_t> skies;
+  for (const detail::Piece& piece : detail::view_subject(scene).skies) {
+    const bool whole = 3 * piece.triangles.size() == scene.primitives[piece.instance->primitive].index_count;
+    if (whole && piece.instance->casts)
+      skies.push_back(static_cast<std::size_t>(piece.instance - scene.instances.data()));
+  }
+  return skies;
+}
+
 }  // namespace
+
+void turn_up(UpAxis up, Scene& scene) {
+  if (up == UpAxis::y) return;
+  for (Instance& instance : scene.instances) {
+    if (instance.node != kNoNode && scene.nodes[instance.node].skinned)
+      turn_vertices(scene.primitives[instance.primitive], scene);
+    else
+      instance.world_from_object = turned(instance.world_from_object);
+    instance.bounds_world = turned(instance.bounds_world);
+  }
+  scene.bounds_world = turned(scene.bounds_world);
+  for (MotionNode& node : scene.motion.nodes)
+    if (node.parent < 0) node.world_from_parent = turned(node.world_from_parent);
+  for (SceneLight& of_file : scene.lights)
+    std::visit(
+        [](auto& light) {
+          if constexpr (requires { light.position; }) light.position = turned(light.position);
+          if constexpr (requires { light.direction; }) light.direction = turned(light.direction);
+        },
+        of_file.light);
+  for (SceneCamera& camera : scene.cameras) {
+    camera.position = turned(camera.position);
+    camera.forward = turned(camera.forward);
+    camera.up = turned(camera.up);
+  }
+}
+
+bool has_sky_that_casts(const Scene& scene) {
+  return !skies_that_cast(scene).empty();
+}
+
+void open_sky(Scene& scene) {
+  for (const std::size_t sky : skies_that_cast(scene)) scene.instances[sky].casts = false;
+}
 
 bool has_ground(const Scene& scene) {
   constexpr int kSamples = 24'000, kCells = 12;
@@ -206,6 +279,8 @@ void cut_by(std::span<const SectionPlane> planes, Scene& scene) {
 }
 
 void edit(const SceneEdits& edits, Scene& scene, const LoadLimits& limits) {
+  turn_up(edits.up, scene);
+  if (edits.open_sky) open_sky(scene);
   if (!edits.proxies.empty())
     cast_by_proxies(load_scene(edits.proxies, limits), edits.proxies, limits, scene);
   cut_by(edits.sections, scene);

@@ -178,7 +178,7 @@ double weight_of(const Piece& piece) noexcept {
 
 // Drops what lies beyond an empty shell round the middle: skies from twice the radius of all within,
 // anything else from 6 times where it is a small part.
-void drop_far_ones(const Scene& scene, std::vector<Piece>& pieces) {
+void drop_far_ones(const Scene& scene, std::vector<Piece>& pieces, std::vector<Piece>& skies) {
   constexpr double kSky = 2.0, kStray = 6.0, kSmallPart = 0.25;
   std::vector<double> weights;
   for (const Piece& piece : pieces) weights.push_back(weight_of(piece));
@@ -213,8 +213,12 @@ void drop_far_ones(const Scene& scene, std::vector<Piece>& pieces) {
       radius = std::max(radius, place.farthest);
   }
   std::vector<Piece> kept;
-  for (std::size_t i = 0; i < pieces.size(); ++i)
-    if (!dropped[i]) kept.push_back(std::move(pieces[i]));
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    if (!dropped[i])
+      kept.push_back(std::move(pieces[i]));
+    else if (places[i].faces && !places[i].open)
+      skies.push_back(std::move(pieces[i]));
+  }
   pieces = std::move(kept);
 }
 
@@ -315,7 +319,7 @@ ViewSubject view_subject(const Scene& scene) {
   for (Piece& piece : all) (is_level(piece) ? levels : subject.pieces).push_back(std::move(piece));
   const std::size_t standing = subject.pieces.size();
   if (standing > 0 && extent_of(box_of(subject.pieces)) > 0.0) {
-    drop_far_ones(scene, subject.pieces);
+    drop_far_ones(scene, subject.pieces, subject.skies);
     drop_backdrops(scene, subject.pieces, subject.lands);
     subject.all = subject.pieces.size() == standing;
     add_levels(levels, subject);

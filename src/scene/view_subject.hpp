@@ -30,6 +30,7 @@ struct Piece {
 struct ViewSubject {
   std::vector<Piece> pieces;  ///< what the scene is about; empty where no instance has a triangle
   std::vector<Piece> lands;   ///< uneven grounds that are not looked at, and that may hide the rest
+  std::vector<Piece> skies;   ///< that surround the rest, face it, and are not looked at
   Box bounds;                 ///< of `pieces`
   bool grounded = false;      ///< level pieces at the foot are at least as wide as the rest
   bool all = true;            ///< nothing was omitted

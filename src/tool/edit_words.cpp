@@ -61,7 +61,15 @@ std::vector<Option> edit_options(SceneEdits& edits) {
     edits.sections = section_words("--section", word);
     return true;
   };
-  return {{.name = "--ground",
+  const std::vector<std::string> axes{"y", "z"};  // in the order of UpAxis
+  return {{.name = "--up",
+           .target = enum_word(edits.up, axes),
+           .help = "axis of the scene's file that points up, y as glTF has it, or z",
+           .names = axes},
+          {.name = "--open-sky",
+           .target = &edits.open_sky,
+           .help = "let a mesh that surrounds the scene as its sky cast no shadow"},
+          {.name = "--ground",
            .target = &edits.ground,
            .help = "add a ground under the scene's lowest point, which receives shadows"},
           {.name = "--section",
@@ -77,6 +85,8 @@ std::vector<Option> edit_options(SceneEdits& edits) {
 std::string edit_text(const SceneEdits& edits, const LoadLimits& limits) {
   std::string text = edits.ground ? "ground" : "";
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : " ") + part; };
+  if (edits.up == UpAxis::z) add("up z");
+  if (edits.open_sky) add("open sky");
   if (!edits.sections.empty()) add("section " + section_text(edits.sections));
   if (!edits.proxies.empty())
     add(fmt::format("proxies {} {:016x}", scene_title(edits.proxies),

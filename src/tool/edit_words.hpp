@@ -1,4 +1,4 @@
-// Edits of a scene on a command line: --ground, --section and --proxies.
+// Edits of a scene on a command line: --up, --open-sky, --ground, --section and --proxies.
 #pragma once
 
 #include <string>

@@ -46,6 +46,11 @@ inline void check_scene_word(std::string_view option, const std::string& word) {
   return scene_folder(scene) + "_" + std::filesystem::path(scene).stem().string();
 }
 
+/// What the loader repaired or omitted, a line each, on standard error.
+inline void warn_of(const Scene& scene) {
+  for (const std::string& warning : scene.warnings) warn(warning);
+}
+
 [[nodiscard]] inline std::string scene_help() {
   std::string text = "glTF file (.gltf, .glb) or one of";
   for (const std::string& word : builtin_scene_words()) text += " " + word;

@@ -1,12 +1,15 @@
-// A ground under a scene, and sections through it.
+// Scenes turned upright, without the shadow of a sky, with a ground under them, and cut by planes.
 #include "gnomon/scene/edit.hpp"
 
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
+#include <variant>
 
 #include "default_view_scenes.hpp"
 #include "gnomon/scene/camera_path.hpp"
+#include "gnomon/scene/pose.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -16,6 +19,116 @@ Scene scene_of(const std::string& name) {
     if (one.name == name) return one.gltf.load();
   ADD_FAILURE() << "no scene " << name;
   return {};
+}
+
+// Up.
+
+// A lit and filmed arm: a box on a joint that an animation turns, and a sheet that a skin bends with it.
+TestGltf arm(bool z_up) {
+  TestGltf gltf;
+  const PartMesh box = PartMesh().box({-1, 0, -2}, {1, 3, 2});
+  const int corners = gltf.positions(box.positions);
+  const int indices = gltf.accessor(gltf.view(box.indices), kUnsignedInt, "SCALAR", box.indices.size());
+  gltf.show({{"attributes", {{"POSITION", corners}}}, {"indices", indices}}, {{"translation", {5, 1, 2}}});
+  const int joint = gltf.show_node({{"translation", {2, 0, 7}}});
+  const int bones = gltf.accessor(gltf.view(std::vector<std::uint8_t>(4 * 3, 0)), kUnsignedByte, "VEC4", 3);
+  const int weights =
+      gltf.accessor(gltf.view(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0}), kFloat, "VEC4", 3);
+  gltf.document["skins"] = {{{"joints", {joint}}}};
+  gltf.show({{"attributes",
+              {{"POSITION", gltf.positions(kTriangle)}, {"JOINTS_0", bones}, {"WEIGHTS_0", weights}}}},
+            {{"skin", 0}});
+  const int times = gltf.accessor(gltf.view(std::vector<float>{0, 1}), kFloat, "SCALAR", 2);
+  const int turns = gltf.accessor(gltf.view(std::vector<float>{0, 0, 0, 1, 0, 0, 1, 0}), kFloat, "VEC4", 2);
+  for (const int node : {0, joint})
+    gltf.document["animations"].push_back(
+        {{"channels", {{{"sampler", 0}, {"target", {{"node", node}, {"path", "rotation"}}}}}},
+         {"samplers", {{{"input", times}, {"output", turns}}}}});
+  gltf.document["cameras"] = {{{"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+  gltf.document["extensions"]["KHR_lights_punctual"]["lights"] = {{{"type", "spot"}}};
+  gltf.show_node({{"camera", 0},
+                  {"translation", {1, 2, 3}},
+                  {"rotation", {0.36, 0.48, 0, 0.8}},
+                  {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  if (!z_up) return gltf;
+  // By hand: all of it hangs on a node that is turned.
+  const double half = std::sqrt(0.5);
+  json& roots = gltf.document["scenes"][0]["nodes"];
+  const json children = std::exchange(roots, json::array());
+  gltf.show_node({{"children", children}, {"rotation", {-half, 0, 0, half}}});
+  return gltf;
+}
+
+// Where each triangle is, at rest or posed.
+std::vector<glm::dvec3> corners_of(Scene scene, int animation) {
+  if (animation >= 0) {
+    Pose at;
+    EXPECT_TRUE(pose(scene, animation, 0.75, at));
+    apply_pose(at, scene);
+  }
+  std::vector<glm::dvec3> corners;
+  for (const Instance& instance : scene.instances) {
+    const Primitive& primitive = scene.primitives[instance.primitive];
+    for (std::uint32_t k = 0; k < primitive.index_count; ++k) {
+      const std::uint32_t v = scene.indices[primitive.first_index + k];
+      corners.emplace_back(instance.world_from_object * glm::dvec4(glm::dvec3(scene.positions[v]), 1.0));
+      corners.emplace_back(glm::dmat3(instance.world_from_object) * glm::dvec3(scene.normals[v]));
+    }
+    corners.push_back(instance.bounds_world.min);
+    corners.push_back(instance.bounds_world.max);
+  }
+  return corners;
+}
+
+TEST(Up, of_z_is_what_a_node_does_that_turns_all_of_the_file) {
+  constexpr double kSingle = 1e-5;  // of skinned vertices, in single precision
+  const Scene by_hand = arm(true).load();
+  Scene turned = arm(false).load();
+  turn_up(UpAxis::y, turned);
+  EXPECT_EQ(turned.bounds_world, arm(false).load().bounds_world);
+  edit({.sections = {}, .up = UpAxis::z}, turned);
+  for (const int animation : {-1, 0, 1}) {
+    const std::vector<glm::dvec3> expected = corners_of(by_hand, animation),
+                                  got = corners_of(turned, animation);
+    ASSERT_EQ(expected.size(), got.size());
+    for (std::size_t i = 0; i < got.size(); ++i)
+      EXPECT_LT(glm::length(got[i] - expected[i]), kSingle) << i << " of animation " << animation;
+  }
+  EXPECT_LT(glm::length(turned.bounds_world.min - by_hand.bounds_world.min), kSingle);
+  EXPECT_LT(glm::length(turned.bounds_world.max - by_hand.bounds_world.max), kSingle);
+  for (const auto part : {&SceneCamera::position, &SceneCamera::forward, &SceneCamera::up})
+    EXPECT_LT(glm::length(turned.cameras.at(0).*part - by_hand.cameras.at(0).*part), kSingle);
+  const auto& spot = std::get<SpotLight>(turned.lights.at(0).light);
+  const auto& other = std::get<SpotLight>(by_hand.lights.at(0).light);
+  EXPECT_LT(glm::length(spot.position - other.position), kSingle);
+  EXPECT_LT(glm::length(spot.direction - other.direction), kSingle);
+}
+
+// Sky.
+
+TEST(Sky, that_casts_is_found_and_opened_and_nothing_else_is) {
+  for (const auto& [name, skies] : {std::pair{"town_under_dome", 1},
+                                    {"town_under_low_dome", 1},
+                                    {"town_in_ball_that_faces_out", 1},
+                                    {"town", 0},
+                                    {"room", 0},
+                                    {"town_on_plate", 0},
+                                    {"town_with_mountains_and_clouds", 0},
+                                    {"backdrop_of_a_photographer", 0}}) {
+    SCOPED_TRACE(name);
+    Scene scene = scene_of(name);
+    EXPECT_EQ(has_sky_that_casts(scene), skies > 0);
+    const Scene before = scene;
+    edit({.sections = {}, .open_sky = true}, scene);
+    EXPECT_FALSE(has_sky_that_casts(scene));
+    int opened = 0;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+      if (scene.instances[i].casts == before.instances[i].casts) continue;
+      ++opened;
+      EXPECT_GT(scene.instances[i].bounds_world.max.y, 100.0) << "the dome";
+    }
+    EXPECT_EQ(opened, skies);
+  }
 }
 
 // Ground.

@@ -1,4 +1,5 @@
-// A scene other than its file has it: with shadow proxies, cut open by planes, or with a ground under it.
+// A scene other than its file has it: turned upright, without a sky's shadow, with shadow proxies, cut open
+// by planes, or with a ground under it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,6 +9,7 @@
 
 #include "gnomon/scene/load.hpp"
 #include "gnomon/scene/scene.hpp"
+#include "gnomon/scene/sun.hpp"
 
 namespace gnomon {
 
@@ -25,10 +27,19 @@ struct SceneEdits {
   bool ground = false;                 ///< add_ground()
   std::vector<SectionPlane> sections;  ///< cut_by(), before the ground
   std::string proxies = {};            ///< scene for cast_by_proxies(), before both; empty: none
+  UpAxis up = UpAxis::y;               ///< of the file; turn_up(), before all others
+  bool open_sky = false;               ///< open_sky(), after that
   /// Equal in all members.
   bool operator==(const SceneEdits&) const = default;
 };
 
+/// Turns a world with z up to y up: what was at (x, y, z) is at (x, z, -y). Instances, lights, cameras and
+/// animations turn alike. UpAxis::y changes nothing.
+void turn_up(UpAxis up, Scene& scene);
+/// True where a mesh surrounds all the rest from afar, faces it, and casts: a sky that darkens the scene.
+[[nodiscard]] bool has_sky_that_casts(const Scene& scene);
+/// Lets such meshes cast no shadow. One that is a part of a mesh that holds more casts as before.
+void open_sky(Scene& scene);
 /// True where something lies under the scene that a shadow could fall on: a ground or land. Surfaces of its
 /// own count where they face up and have nothing below them, over half of it or more.
 [[nodiscard]] bool has_ground(const Scene& scene);

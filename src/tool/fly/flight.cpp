@@ -301,7 +301,7 @@ Flight load_flight(const Options& options) {
   try {
     Flight flight;
     flight.scene = load_edited(options.scene, limits_of_triangles(options.max_triangles), options.edits);
-    for (const std::string& warning : flight.scene.warnings) warn(warning);
+    warn_of(flight.scene);
     flight.path = camera_path(options.camera, flight.scene, 1.0 * options.width / options.height);
     if (!options.animation.empty()) {
       flight.animation = find_animation(flight.scene.motion, options.animation);
@@ -392,10 +392,11 @@ std::string sheet_title(const Options& options) {
 void print_scene(const Options& options, const Flight& flight, const render::ContextInfo& context) {
   constexpr double kMebi = 1024.0 * 1024.0;
   fmt::print("context:  {}\n", context.description());
-  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB{}\n", scene_title(options.scene),
+  fmt::print("scene:    {}, {} instances, {} triangles, {:.4g} MiB{}{}\n", scene_title(options.scene),
              flight.scene.instances.size(), flight.scene.triangle_count(),
              static_cast<double>(flight.scene.bytes()) / kMebi,
-             has_ground(flight.scene) ? "" : "; no ground under it: --ground adds one");
+             has_ground(flight.scene) ? "" : "; no ground under it: --ground adds one",
+             has_sky_that_casts(flight.scene) ? "; a sky round it casts: --open-sky lets light in" : "");
   if (const std::string text = proxies_text(flight.scene); !text.empty()) fmt::print("proxies:  {}\n", text);
 }
 

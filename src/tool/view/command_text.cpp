@@ -85,6 +85,8 @@ bool is_spoken(std::string_view key) {
 std::string command_text(const State& state) {
   std::string text = "gnomon view " + quoted(state.scene);
   if (state.panes) text += " --panes";
+  if (state.edits.up == UpAxis::z) text += " --up z";
+  if (state.edits.open_sky) text += " --open-sky";
   if (state.edits.ground) text += " --ground";
   if (!state.edits.sections.empty()) text += " --section=" + section_text(state.edits.sections);
   if (!state.edits.proxies.empty()) text += " --proxies " + quoted(state.edits.proxies);

@@ -222,6 +222,12 @@ void scene_part(App& app) {
   if (ImGui::Checkbox("ground under it", &edited.edits.ground)) set_state(app, edited);
   if (app.drawing.stage != nullptr && !app.drawing.stage->loaded().grounded)
     ImGui::TextWrapped("Nothing lies under this scene that its shadow could fall on.");
+  if (ImGui::Checkbox("sky casts no shadow", &edited.edits.open_sky)) set_state(app, edited);
+  bool z_up = edited.edits.up == UpAxis::z;
+  if (ImGui::Checkbox("z points up in its file", &z_up)) {
+    edited.edits.up = z_up ? UpAxis::z : UpAxis::y;
+    set_state(app, edited);
+  }
   if (app.drawing.stage != nullptr)
     if (const std::string text = proxies_text(app.drawing.stage->loaded().scene); !text.empty())
       ImGui::TextWrapped("%s", text.c_str());

@@ -119,7 +119,7 @@ LightState light_state(const SceneLight& light) {
 
 void take_camera(const CameraPath& path, State& state) noexcept {
   state.eye = path.keys.front();
-  state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
+  state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, kLeastFovDeg, kMostFovDeg);
   state.height_world = path.height_world;
   state.near_depth = path.near_depth;
   state.far_depth = path.far_depth;

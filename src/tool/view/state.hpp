@@ -101,6 +101,8 @@ struct Playing {
 
 /// Half a second each: most of ten minutes.
 inline constexpr std::size_t kMaxPathKeys = 1024;
+/// Full vertical angles that a state may have, degrees.
+inline constexpr double kLeastFovDeg = 1e-3, kMostFovDeg = 179.99;
 
 struct State {
   std::string scene = "builtin:city";

@@ -386,6 +386,8 @@ void check_brackets(std::string_view text) {
 std::string state_text(const State& state) {
   Json json{{kVersionKey, kVersion}, {"scene", state.scene}, {"path_time", state.path_time}};
   if (state.panes) json["panes"] = true;
+  if (state.edits.up == UpAxis::z) json["up"] = "z";
+  if (state.edits.open_sky) json["open_sky"] = true;
   if (state.edits.ground) json["ground"] = true;
   for (const SectionPlane& plane : state.edits.sections)
     json["section"].push_back({plane.normal.x, plane.normal.y, plane.normal.z, plane.distance});
@@ -444,6 +446,8 @@ State read_state(std::string_view text) {
   State state;
   reader.read("scene", state.scene);
   reader.read("panes", state.panes);
+  reader.read_name("up", state.edits.up, {"y", "z"});  // in the order of UpAxis
+  reader.read("open_sky", state.edits.open_sky);
   reader.read("ground", state.edits.ground);
   state.edits.sections = read_sections(reader, "section");
   reader.read("proxies", state.edits.proxies);
@@ -451,7 +455,7 @@ State read_state(std::string_view text) {
   state.eye = read_key(reader, "eye");
   state.frozen = read_key(reader, "frozen");
   state.path = read_keys(reader, "path");
-  reader.read("fov_y_deg", state.fov_y_deg, 1.0, 170.0);
+  reader.read("fov_y_deg", state.fov_y_deg, kLeastFovDeg, kMostFovDeg);
   reader.read("height_world", state.height_world, 0.0, 1e30);
   reader.read("near", state.near_depth, 0.0, 1e30);
   reader.read("far", state.far_depth, 0.0, 1e30);

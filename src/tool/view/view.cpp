@@ -72,7 +72,7 @@ void resolve_camera(const CameraWords& words, State& state) {
       throw std::runtime_error(fmt::format("--path: at most {} keys", kMaxPathKeys));
     state.path = path.keys;
     if (path.closed) state.path.push_back(path.keys.front());
-    state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, 1.0, 170.0);
+    state.fov_y_deg = std::clamp(path.fov_y_radians * kDegrees, kLeastFovDeg, kMostFovDeg);
     state.height_world = path.height_world;
     state.near_depth = path.near_depth;
     state.far_depth = path.far_depth;
@@ -87,7 +87,8 @@ void resolve_camera(const CameraWords& words, State& state) {
 void resolve_scene_words(const Request& request, State& state) {
   const std::string& camera = request.camera.of_file;
   if (camera.empty() && request.light_of_file.empty()) return;
-  const Scene scene = load_scene(state.scene, limits_of_triangles(request.options.max_triangles));
+  Scene scene = load_scene(state.scene, limits_of_triangles(request.options.max_triangles));
+  turn_up(state.edits.up, scene);
   if (!request.light_of_file.empty()) {
     const SceneLight& light = named_in(scene.lights, request.light_of_file, "--scene-light", "light");
     try {
@@ -318,6 +319,7 @@ int draw_to_file(const Options& options) {
                options.out.has_parent_path() ? options.out.parent_path() : std::filesystem::path("."));
   const auto context = render::create_context(options.context);
   Stage stage(load(options.state.scene, options.max_triangles, options.state.panes, options.state.edits));
+  warn_of(stage.loaded().scene);
   const auto draw = [&] {
     const std::string refusal = stage.draw(options.state, options.width, options.height, true);
     if (!refusal.empty()) throw std::runtime_error(refusal);

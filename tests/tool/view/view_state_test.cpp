@@ -15,7 +15,7 @@ State unusual() {
   State state = hangar();
   state.eye = CameraKey{{1.5, 2.25, 3.0}, {-4.0, 1.0 / 3.0, 0.1}};
   state.panes = true;
-  state.edits = {true, {{{0, 1, 0}, 2.5}, {{-1, 0, 0.25}, 1}}, "simple.glb"};
+  state.edits = {true, {{{0, 1, 0}, 2.5}, {{-1, 0, 0.25}, 1}}, "simple.glb", UpAxis::z, true};
   state.frozen = CameraKey{{1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}};
   state.path = {{{0.0, 1.0, 2.0}, {3.0, 4.0, 5.0}}, {{1.0, 1.0, 2.5}, {3.0, 4.0, 5.0}}};
   state.fov_y_deg = 41.5;
@@ -153,12 +153,12 @@ TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
   EXPECT_NE(command.find(" --layer back"), std::string::npos) << command;
   EXPECT_NE(command.find("--eye=1,2,3 --target=0,0,-1 --view heat"), std::string::npos) << command;
   state = hangar();
-  state.edits = {true, {{{-1, 0, 0}, 2.5}, {{0, 1, 0}, 3}}, "low.glb"};
+  state.edits = {true, {{{-1, 0, 0}, 2.5}, {{0, 1, 0}, 3}}, "low.glb", UpAxis::z, true};
   state.height_world = 30.0;
-  EXPECT_EQ(
-      command_text(state),
-      "gnomon view builtin:hangar --ground --section=-1,0,0,2.5/0,1,0,3 --proxies low.glb --map-size 256 "
-      "--filter pcf --orthographic 30");
+  EXPECT_EQ(command_text(state),
+            "gnomon view builtin:hangar --up z --open-sky --ground --section=-1,0,0,2.5/0,1,0,3 --proxies "
+            "low.glb --map-size 256 "
+            "--filter pcf --orthographic 30");
   state = hangar();
   state.a.linear_depth = true;
   state.a.map_passes = render::MapPasses::each;
