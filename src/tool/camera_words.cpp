@@ -58,10 +58,10 @@ CameraPath path_of(const SceneCamera& camera, const Scene& scene) {
   // An orthographic camera may see from its own place on, and a path begins beyond.
   constexpr double kLeast = 1e-6;
   path.near_depth = std::max(camera.near_depth, kLeast * path.far_depth);
-  // A path's cameras stand upright: up is +Y.
-  constexpr double kUpright = 1e-3;
-  const glm::dvec3 side = glm::cross(camera.forward, glm::dvec3(0.0, 1.0, 0.0));
-  if (glm::length(side) > kUpright && std::abs(glm::dot(camera.up, glm::normalize(side))) > kUpright)
+  // A path's cameras stand upright, those that look straight down as well.
+  constexpr double kTurned = 1e-3;  // sine
+  const CameraAxes shown = camera_axes(path.at(0.0, 1, 1));
+  if (std::abs(glm::dot(camera.up, shown.right)) > kTurned || glm::dot(camera.up, shown.up) < 0.0)
     warn("--camera " + camera.name + ": is tilted to a side, and is shown upright");
   return path;
 }

@@ -1,6 +1,7 @@
 // Does `gnomon scenes` list and write what it can, and do commands have the options that docs/files.md says?
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <regex>
 #include <sstream>
 
@@ -15,6 +16,64 @@ TEST(Scenes, are_listed_where_the_output_takes_them_and_written_to_files_alone) 
   const Finished refused = run_gnomon({"scenes", "--write", "city", folder.path().string()});
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("cannot be written: Is a directory"), std::string::npos) << refused.err;
+}
+
+/// A triangle in the plane z = 0, and these nodes beside it.
+std::string triangle_and(const std::string& nodes, const std::string& more = "") {
+  const int count = static_cast<int>(std::count(nodes.begin(), nodes.end(), '{'));
+  std::string roots = "0";
+  for (int n = 1; n <= count; ++n) roots += "," + std::to_string(n);
+  return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + roots +
+         R"(]}],"nodes":[{"mesh":0},)" + nodes +
+         R"(],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],)" + more +
+         R"("accessors":[{"bufferView":0,"componentType":5126,"type":"VEC3","count":3}],)" +
+         R"("bufferViews":[{"buffer":0,"byteLength":36}],"buffers":[{"byteLength":36,)" +
+         R"("uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+}
+
+// Each command that opens a scene, in a flight or picture as short as it takes.
+TEST(Scenes, are_opened_with_a_line_for_each_fault_by_every_command) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("broken.gltf", triangle_and(R"({"camera":3})"));
+  const std::vector<std::vector<std::string>> commands{
+      {"view", "--out", (folder.path() / "view.png").string()},
+      {"fly", "--frames", "1", "--map-size", "64", "--out", (folder.path() / "fly").string()},
+      {"compare", "--warps", "none", "--filters", "hard", "--frames", "1", "--out",
+       (folder.path() / "compare").string()},
+      {"accumulate", "--frames", "1"},
+      {"bias", "--frames", "1", "--layers", "front"},
+      {"panes", "--frames", "1", "--rounds", "1"}};
+  for (std::vector<std::string> words : commands) {
+    words.insert(words.begin() + 1, file);
+    words.insert(words.end(), {"--size", "32x18", "--context", "osmesa"});
+    const Finished finished = run_gnomon(words);
+    EXPECT_EQ(finished.exit_code, 0) << words[0] << ": " << finished.err;
+    const std::string line = "gnomon: warning: nodes[1].camera: names cameras[3], there are 0, skipped\n";
+    const auto at = finished.err.find(line);
+    ASSERT_NE(at, std::string::npos) << words[0] << ": " << finished.err;
+    EXPECT_EQ(finished.err.find(line, at + 1), std::string::npos) << words[0] << " says it twice";
+  }
+}
+
+TEST(Scenes, whose_camera_is_turned_about_its_line_of_sight_are_shown_upright_with_a_line) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "cameras.gltf",
+      triangle_and(
+          R"({"name":"level","camera":0,"translation":[0,0,3]},)"
+          R"({"name":"rolled","camera":0,"translation":[0,0,3],"rotation":[0,0,0.3826834,0.9238795]},)"
+          R"({"name":"down","camera":0,"translation":[0,3,0],"rotation":[-0.7071068,0,0,0.7071068]},)"
+          R"({"name":"down turned","camera":0,"translation":[0,3,0],"rotation":[-0.5,0.5,0.5,0.5]})",
+          R"("cameras":[{"type":"perspective","perspective":{"yfov":0.8,"znear":0.1}}],)"));
+  const auto says = [&](const char* camera) {
+    const Finished finished = run_gnomon({"view", file, "--camera", camera, "--size", "32x18", "--context",
+                                          "osmesa", "--out", (folder.path() / "view.png").string()});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return finished.err.find("is tilted to a side, and is shown upright") != std::string::npos;
+  };
+  EXPECT_FALSE(says("level"));
+  EXPECT_TRUE(says("rolled"));
+  EXPECT_NE(says("down"), says("down turned")) << "a picture from above has one of the two at its top";
 }
 
 std::vector<std::string> cells_of(const std::string& row) {

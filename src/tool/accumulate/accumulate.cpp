@@ -19,6 +19,7 @@
 #include "interrupt.hpp"
 #include "output.hpp"
 #include "progress.hpp"
+#include "scene_words.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -246,6 +247,7 @@ int run_accumulate(const AccumulateRequest& request) {
   }
   for (const std::string& scene : sweep.scenes) {
     Stage stage(sweep, scene);
+    warn_of(stage.scene());
     const FrameTruth truth = frame_truth(stage, kFrame, sweep.baseline);
     for (const SweepEntry& entry : sweep.entries) {
       Run run(request, stage, entry);

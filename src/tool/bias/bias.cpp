@@ -172,6 +172,7 @@ void print_row(const std::string& scene, const SweepEntry& entry, const NamedBia
 void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::string& scene,
                    Progress& progress, long long& rows) {
   Stage stage(sweep, scene);
+  warn_of(stage.scene());
   const FrameTruth truth = frame_truth(stage, 0, sweep.baseline);
   const std::vector<double> blocker = blocker_distances(stage, truth);
   for (SweepEntry entry : sweep.entries) {

@@ -184,6 +184,7 @@ std::string json_line(const std::string& scene, const SweptLight& light, const S
 void measure_view(const Sweep& product, const std::string& scene, const SweptLight& light, int frame,
                   Table& table, Progress& progress, long long& done) {
   Stage stage(product, scene);
+  warn_of(stage.scene());
   const FrameTruth truth = frame_truth(stage, frame, product.baseline);
   constexpr int kReach = 3;  // pixels
   const std::vector<float> uniform = report::uniform_truth(truth.lit, truth.hard.width, kReach);

@@ -284,7 +284,7 @@ class Run {
       const Clock::time_point frame_begin = Clock::now();
       if (!stage) {
         stage = std::make_unique<Stage>(part.sweep, part.sweep.scenes[scene], exact_results(part, scene));
-        for (const std::string& warning : stage->scene().warnings) warn(warning);
+        warn_of(stage->scene());
         refuse_entries(part, *stage, scene);
       }
       const auto refused = [&](const Task& task) { return refused_here_.contains(task.entry); };

@@ -120,7 +120,7 @@ SceneJudgement judge_in_scene(judge::Capture& capture, const JudgedScene& judged
   const auto kind =
       static_cast<render::ContextKind>(std::find(names.begin(), names.end(), judged.context) - names.begin());
   const Scene scene = load_edited(judged.file, {}, judged.edits);
-  for (const std::string& warning : scene.warnings) warn(warning);
+  warn_of(scene);
   const trace::Tracer tracer(scene);
   complete(capture, scene, tracer);
   SceneJudgement result;

@@ -249,8 +249,7 @@ void measure_lights(PanesStage& stage, render::Renderer& plain, const Camera& ca
 void measure_scene(const PanesRequest& request, const Sweep& sweep, const std::string& scene,
                    const std::function<void()>& head) {
   PanesStage stage(request, sweep, scene);
-  for (const std::string& warning : stage.view.scene().warnings)
-    std::fprintf(stderr, "gnomon: %s: %s\n", scene.c_str(), warning.c_str());
+  warn_of(stage.view.scene());
   std::optional<render::Renderer> plain;
   if (request.by == Way::lights) plain.emplace(stage.parts.opaque);
   for (int frame = 0; frame < sweep.frames; ++frame) {

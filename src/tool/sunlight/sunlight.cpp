@@ -261,7 +261,7 @@ int run(const Request& request) {
   try {
     const SceneView view(request.scene, {}, request.camera, limits_of_triangles(request.max_triangles),
                          request.edits);
-    for (const std::string& warning : view.scene().warnings) warn(warning);
+    warn_of(view.scene());
     const auto context = render::create_context(request.context);
     const Camera camera = view.camera(0, 1, request.width, request.height);
     const Sunlight day = measure(request, begin, view, camera);
