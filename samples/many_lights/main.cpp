@@ -2,7 +2,7 @@
 // draw.
 //
 // usage: many_lights [SCENE] [FOLDER] [LIGHTS]     builtin:hangar, out/many_lights and 24 where nothing is
-// said
+// said; LIGHTS is a number, or `file` for all lights of the scene's file
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -18,6 +18,7 @@
 #include <gnomon/scene/default_light.hpp>
 #include <gnomon/scene/image.hpp>
 #include <gnomon/scene/load.hpp>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,17 @@ namespace fs = std::filesystem;
 constexpr int kFrames = 6, kWidth = 960, kHeight = 540;
 constexpr double kStep = 0.004;  // of the flight, from frame to frame
 
-/// Lights over the scene, and a faint moon.
+constexpr int kOfFile = 0;  // lights, in place of a number
+
+/// Lights over the scene, and a faint moon; or all lights of its file.
 std::vector<gnomon::LightRequest> place_lights(const gnomon::Scene& scene, int count) {
+  if (count == kOfFile) {
+    std::vector<gnomon::LightRequest> lights;
+    for (const gnomon::SceneLight& of_file : scene.lights) lights.push_back({of_file.light});
+    if (lights.empty())
+      throw std::runtime_error("LIGHTS file: the scene's file has no light that can be read");
+    return lights;
+  }
   std::vector<gnomon::LightRequest> lights{{gnomon::DirectionalLight{{0.4, -1.0, 0.3}}, 0.1}};
   for (const gnomon::Light& light : gnomon::local_lights(count, scene.bounds_world))
     lights.push_back({light});
@@ -126,9 +136,10 @@ int main(int argc, char** argv) {
     return 0;
   }
   try {
-    const int count = argc > 3 ? std::atoi(argv[3]) : 24;
-    if (count < 1 || count > 1000) {
-      std::fprintf(stderr, "many_lights: LIGHTS must lie in 1..1000\n");
+    const bool of_file = argc > 3 && std::string(argv[3]) == "file";
+    const int count = of_file ? kOfFile : argc > 3 ? std::atoi(argv[3]) : 24;
+    if (!of_file && (count < 1 || count > 1000)) {
+      std::fprintf(stderr, "many_lights: LIGHTS must lie in 1..1000, or be `file`\n");
       return 2;
     }
     return fly(argc > 1 ? argv[1] : "builtin:hangar", argc > 2 ? argv[2] : "out/many_lights", count);
