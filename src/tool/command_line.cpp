@@ -225,6 +225,17 @@ std::string meant_by(const Program& program, const std::string& word) {
                            " (see --help)");
 }
 
+// An option where a command should stand. CLI11 would only say that one is missing.
+[[noreturn]] void refuse_option(const Program& program, const std::string& word) {
+  const std::string option = word.substr(0, word.find('='));
+  const std::vector<std::string> commands = commands_with(program, option);
+  const std::vector<std::string> alone{"--help", "--version", "--completion", "--manual"};
+  throw std::runtime_error(
+      "no command stands before '" + one_line(word, 80) + "'" +
+      (commands.empty() ? meant(option, alone) : "; it is an option of " + any_of_text(commands)) +
+      " (see --help)");
+}
+
 int run_command(const Program& program, int argc, char** argv) {
   if (argc <= 1) {
     print_text(help_page(program, nullptr));
@@ -237,6 +248,8 @@ int run_command(const Program& program, int argc, char** argv) {
   const std::string word = argc > 1 ? argv[1] : "";
   const Command* chosen = find_command(program, word);
   if (chosen == nullptr && !word.empty() && !word.starts_with('-')) refuse_command(program, word);
+  if (word.starts_with('-') && word != "-h" && word != "--help" && word != "--version")
+    refuse_option(program, word);
   if (chosen != nullptr && chosen->declare == nullptr)
     throw std::runtime_error(word + ": this program was built without " + std::string(chosen->missing));
   Arguments arguments;

@@ -32,6 +32,28 @@ TEST(CommandLine, help_lists_the_subcommands) {
   }
 }
 
+TEST(CommandLine, help_and_manual_list_the_values_of_every_option) {
+  const auto find = [](const std::vector<std::string>& arguments, const std::string& option,
+                       const std::string& end) {
+    const std::string text = run_gnomon(arguments).out;
+    const auto at = text.find(option);
+    return at == std::string::npos ? "" : text.substr(at, text.find(end, at) - at);
+  };
+  const std::string warp = find({"view", "--help"}, "--warp NAME", "--shape");
+  for (const char* name : {"lispsm04", "plane_optimal", "optimal_thorough", "default: auto"})
+    EXPECT_NE(warp.find(name), std::string::npos) << warp;
+  const std::string objective = find({"fly", "--help"}, "--objective NAME", "--map-size");
+  for (const char* name : {"storage", "max", "p95", "picture"})
+    EXPECT_NE(objective.find(name), std::string::npos) << objective;
+  for (const char* option : {"--split NAME", "--partition NAME", "--fit NAME", "--objective NAME"})
+    EXPECT_NE(find({"view", "--help"}, option, "default").find(" or "), std::string::npos) << option;
+  EXPECT_NE(find({"--manual", "view"}, "\\-\\-transition", ".TP").find("One of cut, blend or dither."),
+            std::string::npos);
+  // Once: compare has its words in the text below the options.
+  const std::string layers = find({"compare", "--help"}, "--layers", "--map-sizes");
+  EXPECT_EQ(layers.find("midpoint"), std::string::npos) << layers;
+}
+
 TEST(CommandLine, alone_prints_what_one_can_do) {
   const Finished finished = run_gnomon({});
   EXPECT_EQ(finished.exit_code, 0) << finished.err;
@@ -73,6 +95,15 @@ TEST(CommandLine, suggests_what_was_meant) {
   // What is like no name is no name's mistake.
   EXPECT_EQ(error_of({"elephants"}).find("did you mean"), std::string::npos);
   EXPECT_EQ(error_of({"plan", file, "--elephants"}).find("did you mean"), std::string::npos);
+}
+
+TEST(CommandLine, names_the_commands_of_an_option_that_stands_before_one) {
+  expect_usage_error({"--eye", "0,0,0"});
+  const std::string eye = run_gnomon({"--eye=0,0,0", "--target", "1,0,0"}).err;
+  EXPECT_NE(eye.find("no command stands before '--eye=0,0,0'; it is an option of fly, view"),
+            std::string::npos)
+      << eye;
+  EXPECT_NE(run_gnomon({"--verion"}).err.find("did you mean '--version'?"), std::string::npos);
 }
 
 TEST(CommandLine, names_the_option_that_was_taken_for_a_command) {

@@ -1,4 +1,6 @@
 // `gnomon doctor`: what this machine offers, and why something does not work.
+#include <fmt/core.h>
+
 #include <array>
 #include <filesystem>
 #include <memory>
@@ -135,7 +137,7 @@ int run_doctor(bool json) {
     print_line(report.dump(-1, ' ', false, Json::error_handler_t::replace));
   } else {
     print_line("gnomon " + here.version + " on " + here.cpu + ", " + std::to_string(here.cores) +
-               " cores, load " + report["load"].dump());
+               " cores, load " + fmt::format("{:.2f}", report["load"].get<double>()));
     std::string units;
     for (const std::string& unit : vector_units()) units += (units.empty() ? "" : ", ") + unit;
     print_line("vector units that plans can use: " +
