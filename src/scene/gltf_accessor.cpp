@@ -4,9 +4,12 @@
 #include "gltf_accessor.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
+#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
+#include <string_view>
 #include <type_traits>
 
 #include "gltf_document.hpp"
@@ -180,6 +183,22 @@ std::vector<To> read(const tinygltf::Model& model, int index, int components, st
 }
 
 }  // namespace
+
+void check_accessors(const nlohmann::json& document) {
+  const auto accessors = document.find("accessors");
+  for (std::size_t i = 0; accessors != document.end() && i < accessors->size(); ++i) {
+    const auto component = (*accessors)[i]["componentType"].get<std::uint32_t>();
+    const auto& shape = (*accessors)[i]["type"].get_ref<const std::string&>();
+    if (tinygltf::GetComponentSizeInBytes(component) <= 0)
+      throw Refusal(element("accessors", i) + ".componentType",
+                    std::to_string(component) + " is none of 5120, 5121, 5122, 5123, 5125 and 5126");
+    constexpr std::array<std::string_view, 7> kShapes{"SCALAR", "VEC2", "VEC3", "VEC4",
+                                                      "MAT2",   "MAT3", "MAT4"};
+    if (std::find(kShapes.begin(), kShapes.end(), shape) == kShapes.end())
+      throw Refusal(element("accessors", i) + ".type",
+                    "'" + one_line(shape) + "' is none of SCALAR, VEC2 to VEC4 and MAT2 to MAT4");
+  }
+}
 
 std::vector<float> read_floats(const tinygltf::Model& model, int accessor, int components,
                                std::uint64_t max_count) {

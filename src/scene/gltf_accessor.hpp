@@ -5,9 +5,14 @@
 #include <tiny_gltf.h>
 
 #include <cstdint>
+#include <nlohmann/json_fwd.hpp>
 #include <vector>
 
 namespace gnomon::detail {
+
+/// Refuses by its place what tinygltf refuses without: types of components and shapes of elements that are
+/// not known.
+void check_accessors(const nlohmann::json& document);
 
 /// The accessor's elements as `components` floats each, normalized integers expanded. An accessor with no
 /// buffer view is zeros. Throws Refusal where its data is out of range, its type another or its count above

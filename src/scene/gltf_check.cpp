@@ -198,9 +198,10 @@ json checked_list(const json& document, const json& value, const std::string& wh
       throw Refusal(
           where, "must be " + std::to_string(rule.limit) + " numbers, has " + std::to_string(value.size()));
     }
-    for (const json& v : value) out.push_back(checked_number(v, where));
+    for (std::size_t i = 0; i < value.size(); ++i) out.push_back(checked_number(value[i], element(where, i)));
   } else if (rule.kind == Kind::index_list) {
-    for (const json& v : value) out.push_back(checked_index(document, v, where, rule.target));
+    for (std::size_t i = 0; i < value.size(); ++i)
+      out.push_back(checked_index(document, value[i], element(where, i), rule.target));
   } else {
     for (std::size_t i = 0; i < value.size(); ++i) {
       out.push_back(checked_object(document, value[i], element(where, i), rule.rules));

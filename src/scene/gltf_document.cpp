@@ -10,6 +10,7 @@
 
 #include "base/json_words.hpp"
 #include "glb.hpp"
+#include "gltf_accessor.hpp"
 #include "gltf_check.hpp"
 #include "gltf_compression.hpp"
 #include "refusal.hpp"
@@ -307,6 +308,7 @@ Document open_document(std::span<const std::uint8_t> bytes, SceneFolder& folder,
   if (source.is_object()) adopt_specular_glossiness(source);
   if (source.is_object() && decodes("EXT_texture_webp")) adopt_webp(source);
   json document = checked_document(source);
+  check_accessors(document);
   if (document.contains("nodes") && document["nodes"].size() > limits.nodes) {
     throw Refusal("nodes", "there are more than " + std::to_string(limits.nodes));
   }
