@@ -144,7 +144,7 @@ glm::dmat4 turned(const glm::dmat4& world_from_object) {
   return out;
 }
 
-// Turns the vertices of a primitive that a skin has in world space; each is its own.
+// Turns the vertices of a primitive that are its own.
 void turn_vertices(Primitive& primitive, Scene& scene) {
   const auto first = scene.indices.begin() + primitive.first_index;
   std::vector<std::uint32_t> vertices(first, first + primitive.index_count);
@@ -172,8 +172,13 @@ std::vector<std::size_t> skies_that_cast(const Scene& scene) {
 
 void turn_up(UpAxis up, Scene& scene) {
   if (up == UpAxis::y) return;
-  for (Instance& instance : scene.instances) {
-    if (instance.node != kNoNode && scene.nodes[instance.node].skinned)
+  // A skin that moves puts its vertices into world space in each pose: their instances stay there.
+  std::vector<bool> in_world(scene.instances.size(), false);
+  for (const DeformedMesh& mesh : scene.motion.meshes)
+    if (mesh.skin >= 0) in_world[mesh.instance] = true;
+  for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+    Instance& instance = scene.instances[i];
+    if (in_world[i])
       turn_vertices(scene.primitives[instance.primitive], scene);
     else
       instance.world_from_object = turned(instance.world_from_object);
