@@ -129,12 +129,17 @@ Camera CameraPath::at(double t, int width, int height) const noexcept {
   glm::dvec3 forward = key.target - key.position;
   // Two keys that look at each other meet in the middle; a camera must still look somewhere.
   if (!(glm::dot(forward, forward) > 0.0)) forward = {0.0, 0.0, -1.0};
+  // A camera that looks straight down has north (-Z) at its top, as maps do; quaternions of files are single.
+  constexpr double kVerticalSine = 1e-6;
+  glm::dvec3 up{0.0, 1.0, 0.0};
+  if (std::hypot(forward.x, forward.z) <= kVerticalSine * std::abs(forward.y))
+    up = {0.0, 0.0, forward.y < 0.0 ? -1.0 : 1.0};
   const double aspect = height > 0 ? static_cast<double>(width) / static_cast<double>(height) : 1.0;
   if (height_world > 0.0)
-    return orthographic_camera(key.position, forward, {0.0, 1.0, 0.0}, height_world, aspect, near_depth,
-                               far_depth, width, height);
-  return perspective_camera(key.position, forward, {0.0, 1.0, 0.0}, fov_y_radians, aspect, near_depth,
-                            far_depth, width, height);
+    return orthographic_camera(key.position, forward, up, height_world, aspect, near_depth, far_depth, width,
+                               height);
+  return perspective_camera(key.position, forward, up, fov_y_radians, aspect, near_depth, far_depth, width,
+                            height);
 }
 
 }  // namespace gnomon

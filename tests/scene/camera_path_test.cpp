@@ -158,6 +158,21 @@ TEST(CameraPath, makes_a_perspective_camera_of_the_requested_image) {
   EXPECT_EQ(camera.up, glm::dvec3(0, 1, 0));
 }
 
+TEST(CameraPath, that_looks_straight_down_has_north_at_its_top_and_up_has_it_at_its_foot) {
+  for (const double height_world : {0.0, 30.0}) {
+    // Files turn nodes by quaternions in single precision.
+    for (const double off : {0.0, 3e-8, -3e-8}) {
+      CameraPath path;
+      path.height_world = height_world;
+      path.keys = {{{5.0, 40.0, -7.0}, {5.0 + 40.0 * off, 0.0, -7.0 - 40.0 * off}}};
+      EXPECT_GT(camera_axes(path.at(0.5, 96, 54)).up.z, -1.0 - 1e-9);
+      EXPECT_LT(camera_axes(path.at(0.5, 96, 54)).up.z, -1.0 + 1e-9);
+      path.keys[0].target.y = 80.0;
+      EXPECT_GT(camera_axes(path.at(0.5, 96, 54)).up.z, 1.0 - 1e-9);
+    }
+  }
+}
+
 TEST(CameraPath, with_a_height_is_orthographic) {
   CameraPath path = path_of({{{0, 0, 10}, {0, 0, 0}}});
   path.height_world = 6.0;
