@@ -45,8 +45,10 @@ TEST(CommandLine, help_and_manual_list_the_values_of_every_option) {
   const std::string objective = find({"fly", "--help"}, "--objective NAME", "--map-size");
   for (const char* name : {"storage", "max", "p95", "picture"})
     EXPECT_NE(objective.find(name), std::string::npos) << objective;
-  for (const char* option : {"--split NAME", "--partition NAME", "--fit NAME", "--objective NAME"})
-    EXPECT_NE(find({"view", "--help"}, option, "default").find(" or "), std::string::npos) << option;
+  for (const auto& [option, value] : {std::pair{"--split NAME", "pseudo_near"},
+                                      {"--partition NAME", "receiver_clusters"},
+                                      {"--fit NAME", "warped_stable"}})
+    EXPECT_NE(find({"view", "--help"}, option, "default:").find(value), std::string::npos) << option;
   EXPECT_NE(find({"--manual", "view"}, "\\-\\-transition", ".TP").find("One of cut, blend or dither."),
             std::string::npos);
   // Once: compare has its words in the text below the options.
