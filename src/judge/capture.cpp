@@ -7,6 +7,7 @@
 
 #include "base/bounded_file.hpp"
 #include "json_fields.hpp"
+#include "json_place.hpp"
 #include "json_text.hpp"
 #include "shared_fields.hpp"
 
@@ -98,6 +99,7 @@ CapturedBias bias_of(const json& value, const std::string& path) {
                        "normal_texels", "follows_plane"});
   CapturedBias bias;
   fields.read("depth", bias.depth);
+  if (!(std::abs(bias.depth) <= 1.0)) fields.refuse("depth", "must lie in -1..1, shares of the map's depths");
   fields.read("slope_factor", bias.slope_factor);
   fields.read("world", bias.world);
   fields.read("texels", bias.texels);
@@ -128,7 +130,7 @@ TexelRect rectangle_of(const Fields& fields, std::string_view key) {
 }
 
 CapturedMap map_of(const json& value, const std::string& path, const Convention& convention,
-                   const CapturedBias& bias) {
+                   const std::optional<CapturedBias>& bias) {
   const Fields fields(value, path,
                       {"clip_from_world", "light", "width", "height", "atlas", "depths", "overlap",
                        "depth_bits", "filter_texels", "clamps_depth", "stores", "bias"});
@@ -153,7 +155,8 @@ CapturedMap map_of(const json& value, const std::string& path, const Convention&
     fields.refuse("filter_texels", "must lie in 0..65536");
   fields.read("clamps_depth", map.clamps_depth);
   map.stores_back = flag(fields, "stores", "back", "front");
-  map.bias = fields.has("bias") ? bias_of(fields.at("bias"), path + ".bias") : bias;
+  map.has_bias = fields.has("bias") || bias;
+  map.bias = fields.has("bias") ? bias_of(fields.at("bias"), path + ".bias") : bias.value_or(CapturedBias{});
   return map;
 }
 
@@ -195,8 +198,8 @@ void read_maps(const Fields& fields, const Convention& convention, CapturedFrame
   const json& list = fields.at("maps");
   const std::string path = fields.path_of("maps");
   if (!list.is_array() || list.empty()) fields.refuse("maps", "needs a list of maps");
-  const CapturedBias bias =
-      fields.has("bias") ? bias_of(fields.at("bias"), fields.path_of("bias")) : CapturedBias{};
+  std::optional<CapturedBias> bias;
+  if (fields.has("bias")) bias = bias_of(fields.at("bias"), fields.path_of("bias"));
   std::vector<std::size_t> of_light(frame.lights.size(), 0);
   for (std::size_t i = 0; i < list.size(); ++i) {
     const CapturedMap map = map_of(list[i], element_path(path, i), convention, bias);
@@ -205,6 +208,31 @@ void read_maps(const Fields& fields, const Convention& convention, CapturedFrame
     if (++of_light[static_cast<std::size_t>(map.light)] > kMostMapsOfLight)
       throw CaseError(map.path + ".light: has more than " + std::to_string(kMostMapsOfLight) + " maps");
     frame.maps.push_back(map);
+  }
+}
+
+/// Of each light by itself: a sun's cascades may have depths where a spot's map has none.
+void read_selection(const Fields& fields, CapturedFrame& frame) {
+  MapSelection said = MapSelection::view_depth;
+  read_name(fields, "selection", said, "view_depth, first_holding, finest",
+            [](std::string_view name, MapSelection& selection) {
+              if (name == "first_holding") selection = MapSelection::first_holding;
+              return name == "first_holding" || map_selection_from_name(name, selection);
+            });
+  frame.selection.assign(frame.lights.size(), said);
+  if (said != MapSelection::view_depth) return;
+  for (std::size_t light = 0; light < frame.lights.size(); ++light) {
+    std::size_t maps = 0, with_depths = 0;
+    const CapturedMap* without = nullptr;
+    for (const CapturedMap& map : frame.maps) {
+      if (map.light != static_cast<int>(light)) continue;
+      ++maps;
+      with_depths += std::isfinite(map.begin) ? 1 : 0;
+      if (!std::isfinite(map.begin)) without = &map;
+    }
+    if (with_depths == 0) frame.selection[light] = MapSelection::first_holding;
+    if (with_depths > 0 && with_depths < maps)
+      throw CaseError(without->path + ".depths: is missing, and other maps of its light have it");
   }
 }
 
@@ -218,15 +246,26 @@ CapturedFrame frame_of(const json& value, const std::string& path, const Convent
   for (std::size_t i = 0; i < lights.size(); ++i)
     frame.lights.push_back(light_of(lights[i], element_path(fields.path_of("lights"), i)));
   read_maps(fields, convention, frame);
-  const auto depths = [](const CapturedMap& map) { return std::isfinite(map.begin); };
-  frame.selection = std::all_of(frame.maps.begin(), frame.maps.end(), depths) ? MapSelection::view_depth
-                                                                              : MapSelection::first_holding;
-  read_name(fields, "selection", frame.selection, "view_depth, first_holding, finest",
-            [](std::string_view name, MapSelection& selection) {
-              if (name == "first_holding") selection = MapSelection::first_holding;
-              return name == "first_holding" || map_selection_from_name(name, selection);
-            });
+  read_selection(fields, frame);
   return frame;
+}
+
+/// The message with the line that it is about before it, where the text has lines.
+std::string with_line(std::string_view text, const std::string& message) {
+  if (text.find('\n') == std::string_view::npos || message.starts_with("line ")) return message;
+  const std::string_view path = std::string_view(message).substr(0, message.find(": "));
+  std::size_t found = 0, found_shared = 0;
+  std::size_t line = line_of(text, path, found);
+  // What all frames share stands beside them.
+  const std::size_t rest = path.starts_with("frames[") ? path.find("].") : std::string_view::npos;
+  if (rest != std::string_view::npos) {
+    const std::size_t shared = line_of(text, path.substr(rest + 2), found_shared);
+    if (found_shared > 0 && found <= 2) {
+      line = shared;
+      found = found_shared;
+    }
+  }
+  return found == 0 ? message : "line " + std::to_string(line) + ", " + message;
 }
 
 }  // namespace
@@ -248,6 +287,7 @@ Capture read_capture(std::string_view json_text) {
   convention.camera = capture.clip_space;
   if (fields.has("camera_clip_space"))
     convention.camera = clip_space_from(fields.at("camera_clip_space"), "camera_clip_space");
+  capture.camera_clip_space = convention.camera;
   convention.rows_first = flag(fields, "matrices", "row_major", "column_major");
   if (fields.has("atlas")) {
     const std::vector<double> size = fields.numbers("atlas");
@@ -292,13 +332,13 @@ Capture read_capture(std::string_view json_text) {
 }
 
 Capture load_capture(const std::filesystem::path& file) {
+  std::string text;
   try {
-    std::string text;
     const std::string why = read_bounded_file(file, kMaxCaseBytes, Readable::file_or_pipe, text);
     if (!why.empty()) throw CaseError(why);
     return read_capture(text);
   } catch (const CaseError& error) {
-    throw CaseError(shown_name(file) + ": " + error.what());
+    throw CaseError(shown_name(file) + ": " + with_line(text, error.what()));
   }
 }
 

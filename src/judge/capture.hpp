@@ -42,7 +42,8 @@ struct CapturedMap {
   bool stores_back = false;    ///< back faces are drawn: a closed caster's far side
   bool clamps_depth = false;   ///< casters before the near plane are drawn on it
   CapturedBias bias;
-  std::string path;  ///< in the file
+  bool has_bias = false;  ///< the file says one, if only of zeros
+  std::string path;       ///< in the file
 };
 
 /// What stands in the scene, as far as it is known; each list may be empty.
@@ -56,14 +57,15 @@ struct CapturedFrame {
   Camera camera;
   std::vector<Light> lights;
   std::vector<CapturedMap> maps;
-  MapSelection selection = MapSelection::first_holding;
-  std::size_t scene = 0;  ///< index of what stands in it
+  std::vector<MapSelection> selection;  ///< by light
+  std::size_t scene = 0;                ///< index of what stands in it
 };
 
 /// A file of the format gnomon-capture/1 (docs/captures.md).
 struct Capture {
   std::string name, engine;
   ClipSpace clip_space;                   ///< of the maps' matrices
+  ClipSpace camera_clip_space;            ///< of the cameras'
   int atlas_width = 0, atlas_height = 0;  ///< texels; 0: no atlas
   std::vector<CapturedScene> scenes;      ///< the first is that of frames that name nothing of their own
   std::vector<CapturedFrame> frames;      ///< at least one

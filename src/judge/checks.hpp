@@ -32,8 +32,15 @@ using BrokenMaps = std::vector<bool>;
 
 /// Is the matrix what it is said to be? Marks the maps for which it is not.
 void check_matrices(const Capture& capture, const LightLooks& looks, BrokenMaps& broken, FindingList& out);
+/// Do view depths fit the camera, each other and what is seen? False where the maps serve nothing that is
+/// seen.
+bool check_depths(const Capture& capture, const LightLooks& looks, FindingList& out);
+/// Whether the camera, of the same clip space as the maps, shows that its range of depths is the one said.
+[[nodiscard]] bool camera_fits(const Capture& capture, const LightLooks& looks);
 /// Do the maps hold what is seen, and what shadows it?
 void check_cover(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken, FindingList& out);
+/// Are texels where they are seen, and is each point read from the finest map that is there for it?
+void check_use(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken, FindingList& out);
 /// Do maps fit together: depths, sizes, places in an atlas, kernels at rims?
 void check_neighbours(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken,
                       FindingList& out);

@@ -71,9 +71,11 @@ struct FaultyBias {
 };
 
 struct BiasFaults {
-  std::size_t counted = 0;      // points on slopes that matter
-  FaultyBias small, large;      // shares of what is needed; gaps, world units
-  std::vector<double> missing;  // texels
+  std::size_t counted = 0;                      // points on slopes that matter
+  FaultyBias small, large;                      // shares of what is needed; gaps, world units
+  std::vector<double> missing, missing_normal;  // along the light and along the normal, texels
+  std::vector<double> times;                    // of what is needed, where it is too large
+  double side = 0.0;                            // of a texel: the median, world units
   [[nodiscard]] double share(const FaultyBias& faulty) const {
     return static_cast<double>(faulty.sizes.size()) / static_cast<double>(std::max<std::size_t>(counted, 1));
   }
@@ -90,6 +92,7 @@ BiasFaults bias_faults(const LightLooks& looks, std::size_t map_index) {
   // Beyond it, shading leaves next to no light that a shadow could take.
   constexpr double kSteepest = 0.2425;  // cosine: tan 4
   BiasFaults faults;
+  std::vector<double> sides;
   for_each_served(looks, map_index, [&](std::size_t p, const Look& look) {
     const glm::dvec3 normal = looks.seen->normals[p];
     const double cosine = -glm::dot(normal, travel_at(light, looks.seen->points[p]));
@@ -102,6 +105,8 @@ BiasFaults bias_faults(const LightLooks& looks, std::size_t map_index) {
     if (have < kEnough * need && need > kLeast * side) {
       faults.small.add(p, have / need, 1.0 - have / need);
       faults.missing.push_back((need - have) / side);
+      faults.missing_normal.push_back((need - have) / side * cosine);
+      sides.push_back(side);
     }
     // At the foot of a wall that stands on the surface.
     const double gap = have * std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
@@ -110,8 +115,12 @@ BiasFaults bias_faults(const LightLooks& looks, std::size_t map_index) {
     // A wide kernel blurs what a gap of its own size would show.
     const double blur = std::max(1.0, 0.5 + map.filter_texels) * side;
     constexpr double kTimesNeeded = 4.0, kPixels = 3.0;
-    if (have > kTimesNeeded * std::max(need, blur) && gap > kPixels * pixel) faults.large.add(p, gap, gap);
+    if (have > kTimesNeeded * std::max(need, blur) && gap > kPixels * pixel) {
+      faults.large.add(p, gap, gap);
+      faults.times.push_back(have / std::max(need, blur));
+    }
   });
+  faults.side = quantile(sides);
   return faults;
 }
 
@@ -144,10 +153,15 @@ void check_precision(const Capture&, const LightLooks& looks, const BrokenMaps& 
     check_matrix_precision(looks, i, out);
     const CapturedMap& map = looks.map_at(i);
     std::vector<double> steps, shares;
-    for_each_served(looks, i, [&](std::size_t, const Look& look) {
+    for_each_served(looks, i, [&](std::size_t p, const Look& look) {
       if (!(look.depth_per_world > 0.0)) return;
       const double step = depth_step(map.depth_bits) / look.depth_per_world;
-      const double bias = bias_at(map, look, 1.0, {0.0, 0.0, 0.0});
+      // Without a normal, as if the surface faced the light: what a slope adds does not count.
+      const std::vector<glm::dvec3>& normals = looks.seen->normals;
+      const glm::dvec3 normal = normals.empty() ? glm::dvec3(0.0) : normals[p];
+      const double cosine =
+          normals.empty() ? 1.0 : -glm::dot(normal, travel_at(looks.source(), looks.seen->points[p]));
+      const double bias = bias_at(map, look, cosine, normal);
       constexpr double kHarmless = 0.05;  // of a texel's side
       steps.push_back(step);
       shares.push_back(step / std::max(bias, kHarmless * texel_side(look)));
@@ -172,11 +186,16 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
       const double share = faults.share(faults.small);
       Finding finding = finding_of(FindingKind::bias_small, looks, i, share, "share",
                                    looks.seen->pixels[faults.small.worst_point]);
-      finding.what = "Acne is likely on " + percent(share) + " of what " + map_name(looks, i) +
-                     " serves: the bias there is " + digits(quantile(faults.small.sizes)) +
-                     " of what a texel and the filter need.";
-      finding.change = "Add " + digits(quantile(faults.missing, 0.95)) +
-                       " texels along the light there (slope bias), or follow the receiver's plane.";
+      finding.what = "Acne is likely on " + percent(share) + " of what " + map_name(looks, i) + " serves: " +
+                     (looks.map_at(i).has_bias ? "the bias there is " + digits(quantile(faults.small.sizes)) +
+                                                     " of what a texel and the filter need."
+                                               : "the capture gives it no bias.");
+      const double normal = quantile(faults.missing_normal, 0.95);
+      finding.change =
+          std::string(looks.map_at(i).has_bias ? "Add" : "Say maps[].bias if there is one, or add") +
+          " a normal offset of " + digits(normal * faults.side) + " world units (" + digits(normal) +
+          " texels), or " + digits(quantile(faults.missing, 0.95)) +
+          " texels along the light there (slope bias), or follow the receiver's plane.";
       out.add(finding);
     }
     if (faults.matters(faults.large)) {
@@ -186,7 +205,8 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
       finding.what = "Shadows in " + map_name(looks, i) + " begin " + digits(gap) +
                      " world units off the foot of their casters, on " + percent(faults.share(faults.large)) +
                      " of what it serves.";
-      finding.change = "Lower the bias: four times what texels and filter need would do.";
+      finding.change = "Lower the bias: it is " + digits(quantile(faults.times)) +
+                       " times what texels and filter need there, and four times would do.";
       out.add(finding);
     }
   }

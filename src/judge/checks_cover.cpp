@@ -41,12 +41,22 @@ bool in_range(double depth) {
   return depth >= -kRim && depth <= 1.0 + kRim;
 }
 
+/// Points of one map that are in it, but before its near plane or behind its far one.
+struct Cut {
+  Faulty points;
+  double before = 0.0, behind = 0.0;  // world units, along the light
+};
+
 /// How the points that no map serves are missed.
 struct Missed {
-  Faulty outside, disagreed, gap;
-  std::vector<Faulty> cut;          // by map
+  Faulty outside, disagreed;
+  std::vector<Cut> cut;             // by map
   std::vector<std::size_t> served;  // by map: points that it is to serve
+  std::vector<std::size_t> pairs;   // by the chosen map, then by the one that holds the point
+  std::vector<double> reach;  // of points outside, from the middle of the map nearest to them: 1 is its rim
+  std::vector<std::size_t> nearest;  // by map: for how many of them it is that
   std::size_t counted = 0, cut_count = 0, cut_in_other_range = 0;
+  double least_z = 0.0;  // of those cut
 };
 
 /// Depth of the point if the matrix were of the other depth range.
@@ -65,49 +75,91 @@ void add_cut(const Capture& capture, const LightLooks& looks, std::size_t map, s
   const glm::dvec3 position = looks.seen->points[point];
   const glm::dvec3 way = travel_at(looks.source(), position);
   const double off =
-      way_to_depth(looks.map_at(map), capture.clip_space, position, way, depth < 0.0 ? 0.0 : 1.0);
-  missed.cut[map].add(point, std::abs(off));
+      std::abs(way_to_depth(looks.map_at(map), capture.clip_space, position, way, depth < 0.0 ? 0.0 : 1.0));
+  Cut& cut = missed.cut[map];
+  cut.points.add(point, off);
+  double& side = depth < 0.0 ? cut.before : cut.behind;
+  side = std::max(side, off);
   ++missed.cut_count;
+  missed.least_z = std::min(missed.least_z, look.clip.z);
   if (in_range(other_depth(look.clip.z, capture.clip_space))) ++missed.cut_in_other_range;
+}
+
+void add_outside(const LightLooks& looks, std::size_t point, Missed& missed) {
+  missed.outside.add(point, looks.seen->depths[point]);
+  double least = std::numeric_limits<double>::infinity();
+  std::size_t nearest = 0;
+  const int chosen = looks.chosen[point];
+  for (std::size_t i = 0; i < looks.map.size(); ++i) {
+    const Look& look = looks.of[i][point];
+    if ((chosen >= 0 && static_cast<std::size_t>(chosen) != i) || !(look.w > 0.0)) continue;
+    const double reach = std::max(std::abs(look.clip.x), std::abs(look.clip.y));
+    if (!(reach < least)) continue;
+    least = reach;
+    nearest = i;
+  }
+  if (!std::isfinite(least)) return;
+  missed.reach.push_back(least);
+  ++missed.nearest[nearest];
 }
 
 Missed missed_by(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken) {
   Missed missed;
-  missed.cut.resize(looks.map.size());
-  missed.served.resize(looks.map.size());
-  const bool by_depth = looks.frame->selection == MapSelection::view_depth;
+  const std::size_t maps = looks.map.size();
+  missed.cut.resize(maps);
+  missed.served.resize(maps);
+  missed.nearest.resize(maps);
+  missed.pairs.resize(maps * maps);
+  // Another map holds them: by map those that the chosen one does not show, and those that it cuts.
+  std::vector<std::size_t> beside(maps, 0);
+  std::vector<std::vector<std::size_t>> cut_and_held(maps);
+  const auto disagree = [&](std::size_t at, std::size_t p) {
+    missed.disagreed.add(p, looks.seen->depths[p]);
+    ++missed.pairs[at * maps + static_cast<std::size_t>(looks.holding[p])];
+  };
+  const bool by_depth = looks.selection() == MapSelection::view_depth;
   for (std::size_t p = 0; p < looks.counts.size(); ++p) {
     if (looks.counts[p] == 0) continue;
     ++missed.counted;
     const int chosen = looks.chosen[p], holding = looks.holding[p];
-    if (by_depth && chosen < 0) {
-      missed.gap.add(p, looks.seen->depths[p]);
-      continue;
-    }
+    if (by_depth && chosen < 0) continue;  // check_depths() has it
     if (chosen >= 0) {
       const auto at = static_cast<std::size_t>(chosen);
       ++missed.served[at];
       if (broken[at]) continue;
       const Look& look = looks.of[at][p];
       if (look.inside() && in_range(depth_of(look.clip.z, capture.clip_space))) continue;
-      if (holding >= 0) {
-        missed.disagreed.add(p, looks.seen->depths[p]);
+      if (holding >= 0 && look.inside()) {
+        cut_and_held[at].push_back(p);
+      } else if (holding >= 0) {
+        ++beside[at];
+        disagree(at, p);
       } else if (look.inside()) {
         add_cut(capture, looks, at, p, missed);
       } else {
-        missed.outside.add(p, looks.seen->depths[p]);
+        add_outside(looks, p, missed);
       }
       continue;
     }
     // No map holds it: one that shows it across the light cuts it along it.
     bool cut = false, all_broken = true;
-    for (std::size_t i = 0; i < looks.map.size() && !cut; ++i) {
+    for (std::size_t i = 0; i < maps && !cut; ++i) {
       all_broken = all_broken && broken[i];
       if (broken[i] || !looks.of[i][p].inside()) continue;
       add_cut(capture, looks, i, p, missed);
       cut = true;
     }
-    if (!cut && !all_broken) missed.outside.add(p, looks.seen->depths[p]);
+    if (!cut && !all_broken) add_outside(looks, p, missed);
+  }
+  // A map of other depths shows some and cuts some; one whose planes are wrong shows all.
+  for (std::size_t at = 0; at < maps; ++at) {
+    for (const std::size_t p : cut_and_held[at]) {
+      if (beside[at] > cut_and_held[at].size()) {
+        disagree(at, p);
+      } else {
+        add_cut(capture, looks, at, p, missed);
+      }
+    }
   }
   return missed;
 }
@@ -116,66 +168,93 @@ std::string share_text(std::size_t points, std::size_t of) {
   return percent(static_cast<double>(points) / static_cast<double>(std::max<std::size_t>(of, 1)));
 }
 
-void report_missed(const Capture& capture, const LightLooks& looks, const Missed& missed, FindingList& out) {
-  const auto share = [&](const Faulty& faulty) {
-    return static_cast<double>(faulty.points.size()) /
-           static_cast<double>(std::max<std::size_t>(missed.counted, 1));
-  };
+/// Depths of clip space that are of the other range, and not cut by a plane.
+bool is_other_range(const Capture& capture, const LightLooks& looks, const Missed& missed) {
+  // Planes that cut that deep would be seen at once.
+  constexpr double kDeep = -0.3;
+  return missed.cut_count > 0 && missed.cut_in_other_range * 10 > missed.cut_count * 9 &&
+         missed.least_z < kDeep && !camera_fits(capture, looks);
+}
+
+void report_cut(const Capture& capture, const LightLooks& looks, const Missed& missed, FindingList& out) {
   const bool guessed = looks.seen->guessed;
-  const bool other_range = missed.cut_count > 0 && missed.cut_in_other_range * 10 > missed.cut_count * 9;
+  const auto share = [&](std::size_t points) {
+    return static_cast<double>(points) / static_cast<double>(std::max<std::size_t>(missed.counted, 1));
+  };
+  const bool other_range = is_other_range(capture, looks, missed);
   if (other_range && matters(missed.cut_count, missed.counted, guessed)) {
-    const Faulty* most = &missed.cut.front();
-    for (const Faulty& cut : missed.cut) {
-      if (cut.points.size() > most->points.size()) most = &cut;
+    const Cut* most = &missed.cut.front();
+    for (const Cut& cut : missed.cut) {
+      if (cut.points.points.size() > most->points.points.size()) most = &cut;
     }
-    Finding finding = finding_of(FindingKind::depth_convention, looks, std::nullopt,
-                                 static_cast<double>(missed.cut_count) / static_cast<double>(missed.counted),
-                                 "share", pixel_of(looks, *most));
-    const bool zero = capture.clip_space.ndc_depth == NdcDepth::zero_to_one;
+    Finding finding = finding_of(FindingKind::depth_convention, looks, std::nullopt, share(missed.cut_count),
+                                 "share", pixel_of(looks, most->points));
+    // No depth of 0..1 is outside of -1..1: the range said is 0..1.
     finding.what = share_text(missed.cut_count, missed.counted) +
-                   " of the lit surfaces have depths that fit " + (zero ? "-1..1" : "0..1") + " and not " +
-                   (zero ? "0..1" : "-1..1") + ".";
-    finding.change = zero ? "Convert the matrix from OpenGL's depths, or say minus_one_to_one in clip_space."
-                          : "Say zero_to_one in clip_space, or build the matrix for -1..1.";
+                   " of the lit surfaces have depths that fit -1..1 and not 0..1.";
+    finding.change =
+        "Convert the matrix from OpenGL's depths, or say minus_one_to_one in clip_space. If 0..1 is right, a "
+        "plane cuts "
+        "them: move it by up to " +
+        digits(most->points.worst) + " world units.";
     out.add(finding);
   }
   for (std::size_t i = 0; i < missed.cut.size() && !other_range; ++i) {
-    const Faulty& cut = missed.cut[i];
-    if (!matters(cut.points.size(), missed.counted, guessed) &&
-        !matters_there(cut.points.size(), missed.served[i]))
-      continue;
+    const Cut& cut = missed.cut[i];
+    const std::size_t points = cut.points.points.size();
+    if (!matters(points, missed.counted, guessed) && !matters_there(points, missed.served[i])) continue;
     Finding finding =
-        finding_of(FindingKind::receivers_cut, looks, i, share(cut), "share", pixel_of(looks, cut));
-    finding.what = share_text(cut.points.size(), missed.counted) + " of the lit surfaces lie in " +
-                   map_name(looks, i) + " but beyond its depths, by up to " + digits(cut.worst) +
-                   " world units.";
-    finding.change = "Move the map's near or far plane out by that much.";
+        finding_of(FindingKind::receivers_cut, looks, i, share(points), "share", pixel_of(looks, cut.points));
+    const bool both = cut.before > 0.0 && cut.behind > 0.0;
+    const std::string where = both               ? "outside of its near and far planes"
+                              : cut.before > 0.0 ? "before its near plane"
+                                                 : "behind its far plane";
+    finding.what = share_text(points, missed.counted) + " of the lit surfaces lie in " + map_name(looks, i) +
+                   " but " + where + ", by up to " + digits(cut.points.worst) + " world units.";
+    finding.change = both ? "Move the near plane " + digits(cut.before) +
+                                " towards the light and the far plane " + digits(cut.behind) +
+                                " away from it, in world units."
+                          : (cut.before > 0.0 ? "Move the near plane towards the light by that much."
+                                              : "Move the far plane away from the light by that much.");
     out.add(finding);
   }
-  if (matters(missed.outside.points.size(), missed.counted, guessed)) {
-    Finding finding = finding_of(FindingKind::receivers_outside, looks, std::nullopt, share(missed.outside),
-                                 "share", pixel_of(looks, missed.outside));
-    finding.what = share_text(missed.outside.points.size(), missed.counted) +
-                   " of the lit surfaces are in no map: they get no shadow.";
-    finding.change = "Fit the maps round all that the camera sees up to the shadows' end.";
-    out.add(finding);
+}
+
+void report_outside(const LightLooks& looks, const Missed& missed, FindingList& out) {
+  const std::size_t points = missed.outside.points.size();
+  if (!matters(points, missed.counted, looks.seen->guessed)) return;
+  Finding finding = finding_of(FindingKind::receivers_outside, looks, std::nullopt,
+                               static_cast<double>(points) / static_cast<double>(missed.counted), "share",
+                               pixel_of(looks, missed.outside));
+  finding.what =
+      share_text(points, missed.counted) + " of the lit surfaces are in no map: they get no shadow.";
+  finding.change = "Fit the maps round all that the camera sees up to the shadows' end";
+  const double reach = quantile(missed.reach, 1.0);
+  constexpr double kTold = 100.0;
+  if (reach > 1.0 && reach < kTold) {
+    const auto most = std::max_element(missed.nearest.begin(), missed.nearest.end()) - missed.nearest.begin();
+    finding.change += ": the farthest is " + digits(reach) + " times as far from the middle of " +
+                      map_name(looks, static_cast<std::size_t>(most)) + " as its border";
   }
-  if (matters(missed.disagreed.points.size(), missed.counted, guessed)) {
-    Finding finding = finding_of(FindingKind::selection_disagrees, looks, std::nullopt,
-                                 share(missed.disagreed), "share", pixel_of(looks, missed.disagreed));
-    finding.what = "For " + share_text(missed.disagreed.points.size(), missed.counted) +
-                   " of the lit surfaces, the map of their view depth does not hold them, and another does.";
-    finding.change = "Choose by the same depths that the maps were fitted to, or by what each map holds.";
-    out.add(finding);
-  }
-  if (missed.gap.points.size() >= 3) {
-    Finding finding = finding_of(FindingKind::gap_between_maps, looks, std::nullopt, share(missed.gap),
-                                 "share", pixel_of(looks, missed.gap));
-    finding.what = share_text(missed.gap.points.size(), missed.counted) +
-                   " of the lit surfaces are at view depths before the first map or between two.";
-    finding.change = "Let the first map begin at the near plane, and each where the one before it ends.";
-    out.add(finding);
-  }
+  finding.change += ".";
+  out.add(finding);
+}
+
+void report_disagreed(const LightLooks& looks, const Missed& missed, FindingList& out) {
+  const std::size_t points = missed.disagreed.points.size();
+  if (!matters(points, missed.counted, looks.seen->guessed)) return;
+  const auto most = static_cast<std::size_t>(std::max_element(missed.pairs.begin(), missed.pairs.end()) -
+                                             missed.pairs.begin());
+  const std::size_t chosen = most / looks.map.size(), holding = most % looks.map.size();
+  Finding finding = finding_of(FindingKind::selection_disagrees, looks, std::nullopt,
+                               static_cast<double>(points) / static_cast<double>(missed.counted), "share",
+                               pixel_of(looks, missed.disagreed));
+  finding.what =
+      "For " + share_text(points, missed.counted) +
+      " of the lit surfaces, the map of their view depth does not hold them, and another does: mostly " +
+      map_name(looks, chosen) + " and " + map_name(looks, holding) + ".";
+  finding.change = "Choose by the same depths that the maps were fitted to, or by what each map holds.";
+  out.add(finding);
 }
 
 /// From a point to the light; infinite to a sun.
@@ -229,87 +308,15 @@ void check_casters(const Capture& capture, const LightLooks& looks, const Broken
   }
 }
 
-void check_use(const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
-  std::size_t counted = 0;
-  std::vector<std::size_t> served(looks.map.size(), 0);
-  struct Extent {
-    glm::dvec2 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
-  };
-  std::vector<Extent> used(looks.map.size());
-  for (std::size_t p = 0; p < looks.counts.size(); ++p) {
-    if (looks.counts[p] == 0) continue;
-    ++counted;
-    if (looks.chosen[p] < 0) continue;
-    const auto at = static_cast<std::size_t>(looks.chosen[p]);
-    const Look& look = looks.of[at][p];
-    if (!look.inside()) continue;
-    ++served[at];
-    used[at].low = glm::min(used[at].low, look.texel);
-    used[at].high = glm::max(used[at].high, look.texel);
-  }
-  // Fewer points do not show how far the seen surfaces reach.
-  constexpr std::size_t kEnough = 200, kEnoughOfMap = 50;
-  constexpr double kLeastUsed = 0.04;
-  if (counted < kEnough) return;
-  for (std::size_t i = 0; i < looks.map.size(); ++i) {
-    if (broken[i]) continue;
-    const CapturedMap& map = looks.map_at(i);
-    const double texels = static_cast<double>(map.width) * map.height;
-    if (served[i] == 0) {
-      Finding finding = finding_of(FindingKind::map_unseen, looks, i, texels, "texels");
-      finding.what = "Nothing that the camera sees reads " + map_name(looks, i) + ": " +
-                     digits(texels * 1e-6) + " million texels are drawn for nothing.";
-      finding.change = "Skip the map in such frames, or divide the depths that show something.";
-      out.add(finding);
-      continue;
-    }
-    if (served[i] < kEnoughOfMap) continue;
-    const glm::dvec2 size = used[i].high - used[i].low + 2.0 * map.filter_texels;
-    const double share = std::min(1.0, size.x / map.width) * std::min(1.0, size.y / map.height);
-    if (share >= kLeastUsed) continue;
-    Finding finding = finding_of(FindingKind::texels_unseen, looks, i, 1.0 - share, "share");
-    finding.what = percent(1.0 - share) + " of the texels of " + map_name(looks, i) +
-                   " lie outside of all that the camera sees in it.";
-    finding.change = "Fit the map to the visible receivers: the texels would be " + digits(std::sqrt(share)) +
-                     " times as long.";
-    out.add(finding);
-  }
-}
-
-/// Lit surfaces in view, none of which is at the depths that the maps serve.
-bool check_depths(const LightLooks& looks, FindingList& out) {
-  std::size_t lit = 0, counted = 0;
-  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
-  for (std::size_t p = 0; p < looks.lit.size(); ++p) {
-    counted += looks.counts[p] != 0 && looks.chosen[p] >= 0 ? 1 : 0;
-    if (looks.lit[p] == 0) continue;
-    ++lit;
-    nearest = std::min(nearest, looks.seen->depths[p]);
-    farthest = std::max(farthest, looks.seen->depths[p]);
-  }
-  if (looks.map.empty() || lit < 3 || counted > 0 || looks.frame->selection != MapSelection::view_depth)
-    return true;
-  double begin = std::numeric_limits<double>::infinity(), end = -begin;
-  for (std::size_t i = 0; i < looks.map.size(); ++i) {
-    begin = std::min(begin, looks.map_at(i).begin);
-    end = std::max(end, looks.map_at(i).end);
-  }
-  Finding finding = finding_of(FindingKind::gap_between_maps, looks, std::nullopt, 1.0, "share");
-  finding.what = "No lit surface is at the view depths that the maps serve (" + digits(begin) + " to " +
-                 digits(end) + "): they are at " + digits(nearest) + " to " + digits(farthest) + ".";
-  finding.change = "Give depths in world units, from the eye forward, and a camera that looks at the scene.";
-  out.add(finding);
-  return false;
-}
-
 }  // namespace
 
 void check_cover(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken,
                  FindingList& out) {
-  if (!check_depths(looks, out)) return;
-  report_missed(capture, looks, missed_by(capture, looks, broken), out);
+  const Missed missed = missed_by(capture, looks, broken);
+  report_cut(capture, looks, missed, out);
+  report_outside(looks, missed, out);
+  report_disagreed(looks, missed, out);
   check_casters(capture, looks, broken, out);
-  check_use(looks, broken, out);
 }
 
 }  // namespace gnomon::judge

@@ -35,24 +35,43 @@ struct Orientation {
   double degrees = 0.0;  // off the light's ray: the median
 };
 
-/// `looks_at`: of the map at a point.
-template <typename LookAt>
-Orientation orientation_of(const Capture& capture, const LightLooks& looks, LookAt&& looks_at) {
-  Orientation o;
+/// Points that tell a map's orientation: those that the light lights. A sun's rays are the same at all, and a
+/// spot's map shows what lies beside its cone as well.
+std::vector<glm::dvec3> telling_points(const LightLooks& looks, std::size_t map) {
   const Light& light = looks.source();
+  std::vector<glm::dvec3> points;
+  for (std::size_t p = 0; p < looks.counts.size(); ++p) {
+    // A face of a cube says nothing of what lies behind it.
+    if (looks.counts[p] != 0 && (looks.of[map][p].inside() || !std::holds_alternative<PointLight>(light)))
+      points.push_back(looks.seen->points[p]);
+  }
+  if (!points.empty()) return points;
+  if (std::holds_alternative<DirectionalLight>(light)) {
+    points = looks.seen->points;
+    if (points.empty() && !perspective_axes(looks.map_at(map)).perspective)
+      points.push_back(looks.frame->camera.position);
+  } else {
+    for (std::size_t p = 0; p < looks.seen->points.size(); ++p) {
+      if (looks.of[map][p].inside()) points.push_back(looks.seen->points[p]);
+    }
+  }
+  return points;
+}
+
+Orientation orientation_of(const Capture& capture, const CapturedMap& map, const Light& light,
+                           const std::vector<glm::dvec3>& points) {
+  Orientation o;
   const ClipSpace& space = capture.clip_space;
   const bool turned = space.y_down != (space.handedness == Handedness::left);
   std::vector<double> degrees;
-  for (std::size_t p = 0; p < looks.counts.size(); ++p) {
-    const Look look = looks_at(p);
-    // A face of a cube says nothing of what lies behind it.
-    if (looks.counts[p] == 0 || (!look.inside() && std::holds_alternative<PointLight>(light))) continue;
+  for (const glm::dvec3& point : points) {
+    const Look look = look_at(map, space, light, point);
     ++o.count;
     if (!(look.w > 0.0)) {
       ++o.behind;
       continue;
     }
-    const glm::dvec3 travel = travel_at(light, looks.seen->points[p]);
+    const glm::dvec3 travel = travel_at(light, point);
     const glm::dvec3 axis = glm::cross(look.along_x, look.along_y);
     const double length = glm::length(axis);
     if (!(length > 0.0)) continue;
@@ -83,13 +102,11 @@ void check_matrix(const Capture& capture, const LightLooks& looks, std::size_t m
     broken[map] = true;
     return;
   }
-  const Orientation o = orientation_of(capture, looks, [&](std::size_t p) { return looks.of[map][p]; });
+  const std::vector<glm::dvec3> points = telling_points(looks, map);
+  const Orientation o = orientation_of(capture, looks.map_at(map), light, points);
   if (o.count == 0) return;
   if (o.degrees > kSameDirection || o.behind > o.count / 2) {
-    const CapturedMap turned = transposed(looks.map_at(map));
-    const Orientation other = orientation_of(capture, looks, [&](std::size_t p) {
-      return look_at(turned, capture.clip_space, light, looks.seen->points[p]);
-    });
+    const Orientation other = orientation_of(capture, transposed(looks.map_at(map)), light, points);
     if (other.count > 0 && other.degrees <= kSameDirection && other.behind <= other.count / 2) {
       out.add(transposed_finding(looks, map));
       broken[map] = true;
@@ -164,36 +181,81 @@ void check_cube(const LightLooks& looks, const BrokenMaps& broken, FindingList& 
   }
 }
 
-/// Texture coordinates in place of clip space: all is in 0..1 across and along the maps of a sun.
+/// Texture coordinates in place of clip space: a local light's axis is in the middle of them.
+bool has_axis_of_texture(const CapturedMap& map) {
+  const PerspectiveAxes axes = perspective_axes(map);
+  constexpr double kSame = 0.005;
+  return axes.perspective && std::abs(axes.middle.x - 0.5) < kSame && std::abs(axes.middle.y - 0.5) < kSame;
+}
+
+/// The same of a sun: all is in 0..1 across and along its maps, and round the middle of that.
 bool is_texture_space(const LightLooks& looks) {
-  const Light& light = looks.source();
-  if (!std::holds_alternative<DirectionalLight>(light)) return false;
+  const std::size_t maps = looks.map.size();
   std::size_t counted = 0, within = 0;
-  for (std::size_t map = 0; map < looks.map.size(); ++map) {
+  bool round_middle = true;
+  for (std::size_t map = 0; map < maps; ++map) {
+    glm::dvec2 low(1.0), high(0.0);
+    std::size_t here = 0;
     for (std::size_t p = 0; p < looks.counts.size(); ++p) {
       if (looks.counts[p] == 0 || looks.chosen[p] != static_cast<int>(map)) continue;
       const glm::dvec3& at = looks.of[map][p].clip;
-      ++counted;
-      within +=
-          at.x >= 0.0 && at.y >= 0.0 && at.z >= 0.0 && at.x <= 1.0 && at.y <= 1.0 && at.z <= 1.0 ? 1 : 0;
+      ++here;
+      if (!(at.x >= 0.0 && at.y >= 0.0 && at.z >= 0.0 && at.x <= 1.0 && at.y <= 1.0 && at.z <= 1.0)) continue;
+      ++within;
+      low = glm::min(low, {at.x, at.y});
+      high = glm::max(high, {at.x, at.y});
     }
+    counted += here;
+    constexpr std::size_t kEnoughOfMap = 500;
+    const glm::dvec2 off = glm::abs(0.5 * (low + high) - 0.5);
+    round_middle = round_middle && (here < kEnoughOfMap || std::max(off.x, off.y) < 0.16);
   }
   // Of sound maps, half of the points are below 0.
   constexpr std::size_t kEnough = 200;
-  return counted >= kEnough && 100 * within > 98 * counted;
+  return counted >= kEnough && 100 * within > 98 * counted && round_middle;
+}
+
+void check_texture_space(const LightLooks& looks, BrokenMaps& broken, FindingList& out) {
+  const bool sun = std::holds_alternative<DirectionalLight>(looks.source());
+  const bool all = sun && is_texture_space(looks);
+  for (std::size_t map = 0; map < looks.map.size(); ++map) {
+    if (broken[map] || !(all || (!sun && has_axis_of_texture(looks.map_at(map))))) continue;
+    Finding finding = finding_of(FindingKind::texture_space, looks, map, 1.0, "matrix");
+    finding.what = sun ? "All that " + map_name(looks, map) +
+                             " serves lies in 0..1 across and along it: these are texture coordinates."
+                       : "The axis of " + map_name(looks, map) +
+                             " is at 0.5, 0.5 and not at 0, 0: these are texture coordinates.";
+    finding.change = "Hand in the matrices before they are scaled to textures (three.js: not shadow.matrix).";
+    out.add(finding);
+    broken[map] = true;
+  }
+}
+
+/// A spot's map that looks past its cone.
+void check_aim(const LightLooks& looks, BrokenMaps& broken, FindingList& out) {
+  const auto* spot = std::get_if<SpotLight>(&looks.source());
+  if (spot == nullptr) return;
+  for (std::size_t map = 0; map < looks.map.size(); ++map) {
+    const PerspectiveAxes axes = perspective_axes(looks.map_at(map));
+    const double cosine = glm::dot(axes.forward, glm::normalize(spot->direction));
+    if (broken[map] || !axes.perspective || cosine >= std::cos(spot->outer_radians)) continue;
+    const double degrees = std::acos(std::clamp(cosine, -1.0, 1.0)) * kDegrees;
+    Finding finding = finding_of(FindingKind::light_direction, looks, map, degrees, "degrees");
+    finding.what = "The axis of " + map_name(looks, map) + " is " + digits(degrees) +
+                   " degrees off its light's, and so outside of its cone.";
+    finding.change = "Give the direction that the spot shines in, in the same space as the matrix.";
+    out.add(finding);
+    broken[map] = true;
+  }
 }
 
 }  // namespace
 
 void check_matrices(const Capture& capture, const LightLooks& looks, BrokenMaps& broken, FindingList& out) {
   for (std::size_t map = 0; map < looks.map.size(); ++map) check_matrix(capture, looks, map, broken, out);
-  const Light& light = looks.source();
-  if (std::holds_alternative<PointLight>(light)) check_cube(looks, broken, out);
-  if (!is_texture_space(looks)) return;
-  Finding finding = finding_of(FindingKind::texture_space, looks, std::nullopt, 1.0, "matrix");
-  finding.what = "All that the maps serve lies in 0..1 across and along them: these are texture coordinates.";
-  finding.change = "Hand in the matrices before they are scaled to textures (three.js: not shadow.matrix).";
-  out.add(finding);
+  if (std::holds_alternative<PointLight>(looks.source())) check_cube(looks, broken, out);
+  check_texture_space(looks, broken, out);
+  check_aim(looks, broken, out);
 }
 
 }  // namespace gnomon::judge

@@ -24,6 +24,8 @@ bool same_light(const Light& a, const Light& b) {
   return same(std::get<PointLight>(a).position, std::get<PointLight>(b).position);
 }
 
+constexpr std::size_t kEnough = 20;  // points
+
 /// How the texels of one map move between two frames.
 struct Motion {
   double drift = 0.0;   // texels off a whole number of them: the median over points
@@ -35,8 +37,12 @@ Motion motion_of(const Capture& capture, const LightLooks& before, const Capture
                  std::size_t map) {
   Motion motion;
   std::vector<double> drifts, growths;
+  // A map that serves a few points moves over all that it holds.
+  const auto served =
+      static_cast<std::size_t>(std::count(before.chosen.begin(), before.chosen.end(), static_cast<int>(map)));
+  if (served == 0) return motion;
   for (std::size_t p = 0; p < before.counts.size(); ++p) {
-    if (before.counts[p] == 0 || before.chosen[p] != static_cast<int>(map)) continue;
+    if (before.counts[p] == 0 || (served >= kEnough && before.chosen[p] != static_cast<int>(map))) continue;
     const Look& was = before.of[map][p];
     const Look is = look_at(now, capture.clip_space, light, before.seen->points[p]);
     if (!was.inside() || !is.inside()) continue;
@@ -64,7 +70,6 @@ void check_motion(const Capture& capture, const LightLooks& before, const LightL
     const CapturedMap &was = before.map_at(i), &is = now.map_at(i);
     if (broken[i] || was.width != is.width || was.height != is.height) continue;
     const Motion motion = motion_of(capture, before, is, now.frame->lights[light], i);
-    constexpr std::size_t kEnough = 20;
     if (motion.points < kEnough) continue;
     // A twentieth of a texel: edges do not move by what one sees.
     constexpr double kDrifts = 0.05, kJumps = 1.03;

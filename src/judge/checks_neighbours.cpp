@@ -10,13 +10,14 @@ namespace {
 
 /// Texels of neighbouring cascades at the same points, near the depth where they meet.
 void check_steps(const LightLooks& looks, const BrokenMaps& broken, FindingList& out) {
-  if (looks.frame->selection != MapSelection::view_depth) return;
+  if (looks.selection() != MapSelection::view_depth) return;
   std::vector<std::size_t> order(looks.map.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return looks.map_at(a).begin < looks.map_at(b).begin; });
-  // Cascades whose depths grow by this factor have texels that do.
-  constexpr double kStep = 8.0;
+  // Texels grow as the slices of the view do; by far more is a fault of the maps, and this much one of the
+  // slices.
+  constexpr double kMost = 16.0, kStep = 6.0, kTimesSlices = 2.5;
   constexpr double kNear = 0.25;  // of the depth
   for (std::size_t k = 0; k + 1 < order.size(); ++k) {
     const std::size_t near = order[k], far = order[k + 1];
@@ -29,14 +30,20 @@ void check_steps(const LightLooks& looks, const BrokenMaps& broken, FindingList&
       if (a > 0.0 && b > 0.0) ratios.push_back(b / a);
     }
     constexpr std::size_t kEnough = 5;
-    const double ratio = quantile(ratios);
-    if (ratios.size() < kEnough || (ratio < kStep && ratio > 1.0 / kStep)) continue;
-    const double size = std::max(ratio, 1.0 / ratio);
+    const double ratio = quantile(ratios), size = std::max(ratio, 1.0 / ratio);
+    if (ratios.size() < kEnough) continue;
+    const double slices = slice_radius(*looks.frame, looks.map_at(far), edge) /
+                          slice_radius(*looks.frame, looks.map_at(near), edge);
+    const bool odd = size > kStep && std::max(ratio / slices, slices / ratio) > kTimesSlices;
+    if (!odd && !(size > kMost)) continue;
     Finding finding = finding_of(FindingKind::density_step, looks, far, size, "times");
     finding.what = "Texels of " + map_name(looks, far) + " are " + digits(ratio) +
                    " times as long as those of " + map_name(looks, near) + " where they meet, at depth " +
                    digits(edge) + ".";
-    finding.change = "Divide the depths more evenly: each end over the one before it by the same factor.";
+    finding.change =
+        odd ? "Fit both maps to their depths with as many texels: " + digits(slices) +
+                  " times is what the depths make of it."
+            : "Divide the depths more evenly: each end over the one before it by the same factor.";
     out.add(finding);
   }
 }

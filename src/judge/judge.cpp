@@ -44,7 +44,10 @@ std::unique_ptr<JudgedFrame> judge_frame(const Capture& capture, const CapturedF
     const LightLooks& looks = judged->looks.back();
     BrokenMaps& broken = judged->broken.emplace_back(looks.map.size(), false);
     check_matrices(capture, looks, broken, out);
-    check_cover(capture, looks, broken, out);
+    if (check_depths(capture, looks, out)) {
+      check_cover(capture, looks, broken, out);
+      check_use(capture, looks, broken, out);
+    }
     check_neighbours(capture, looks, broken, out);
     check_precision(capture, looks, broken, out);
     check_bias(capture, looks, broken, out);
@@ -61,7 +64,7 @@ ShadowPlan plan_of(const Capture& capture, const CapturedFrame& frame, int light
   plan.status = PlanStatus::ok;
   plan.origin_world = frame.camera.position;
   plan.clip_space = capture.clip_space;
-  plan.selection = frame.selection;
+  plan.selection = frame.selection[static_cast<std::size_t>(light)];
   const Light& source = frame.lights[static_cast<std::size_t>(light)];
   plan.light_direction = travel_at(source, frame.camera.position);
   if (const auto* spot = std::get_if<SpotLight>(&source))
@@ -209,6 +212,27 @@ std::vector<std::string> notes_on(const Capture& capture, const CapturedFrame& f
   return notes;
 }
 
+/// The point nearest to the middle of what the map serves in the image; of what the light lights for none.
+std::optional<glm::dvec2> middle_of(const LightLooks& looks, std::optional<std::size_t> map) {
+  const auto counts = [&](std::size_t p) {
+    return looks.counts[p] != 0 && (!map || looks.chosen[p] == static_cast<int>(*map));
+  };
+  glm::dvec2 sum(0.0);
+  double count = 0.0;
+  for (std::size_t p = 0; p < looks.counts.size(); ++p) {
+    if (!counts(p)) continue;
+    sum += looks.seen->pixels[p];
+    count += 1.0;
+  }
+  std::optional<glm::dvec2> nearest;
+  for (std::size_t p = 0; p < looks.counts.size(); ++p) {
+    const glm::dvec2& at = looks.seen->pixels[p];
+    if (counts(p) && (!nearest || glm::distance(at, sum / count) < glm::distance(*nearest, sum / count)))
+      nearest = at;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 std::string_view to_string(FindingKind kind) noexcept {
@@ -237,7 +261,7 @@ Finding finding_of(FindingKind kind, const LightLooks& looks, std::optional<std:
   finding.map = map ? static_cast<int>(looks.map[*map]) : -1;
   finding.size = size;
   finding.unit = unit;
-  finding.pixel = pixel;
+  finding.pixel = pixel ? pixel : middle_of(looks, map);
   return finding;
 }
 

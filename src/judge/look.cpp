@@ -2,6 +2,7 @@
 #include "judge/look.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -63,6 +64,39 @@ Look look_at(const CapturedMap& map, const ClipSpace& space, const Light& light,
   return look;
 }
 
+PerspectiveAxes perspective_axes(const CapturedMap& map) noexcept {
+  const glm::dmat4& m = map.clip_from_world;
+  const glm::dvec3 x{m[0][0], m[1][0], m[2][0]}, y{m[0][1], m[1][1], m[2][1]}, w{m[0][3], m[1][3], m[2][3]};
+  PerspectiveAxes axes;
+  const double length = glm::length(w);
+  if (!(length > 0.0)) return axes;
+  axes.perspective = true;
+  axes.forward = w / length;
+  axes.middle = glm::dvec2(glm::dot(x, axes.forward), glm::dot(y, axes.forward)) / length;
+  const auto focal = [&](const glm::dvec3& row, double middle) {
+    return glm::length(row - middle * w) / length;
+  };
+  axes.focal = {focal(x, axes.middle.x), focal(y, axes.middle.y)};
+  return axes;
+}
+
+double slice_radius(const CapturedFrame& frame, const CapturedMap& map, double deepest) noexcept {
+  const Camera& camera = frame.camera;
+  const double begin = std::max(map.begin, camera.near_depth);
+  const double end = std::min(std::isfinite(map.end) ? map.end : deepest, camera.far_depth);
+  std::array<glm::dvec3, 8> corners{};
+  glm::dvec3 middle(0.0);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const double depth = (i & 1) != 0 ? end : begin, scale = camera.orthographic ? 1.0 : depth;
+    corners[i] = {scale * ((i & 2) != 0 ? camera.left : camera.right),
+                  scale * ((i & 4) != 0 ? camera.bottom : camera.top), depth};
+    middle += corners[i] / 8.0;
+  }
+  double radius = 0.0;
+  for (const glm::dvec3& corner : corners) radius = std::max(radius, glm::length(corner - middle));
+  return radius;
+}
+
 double quantile(std::vector<double> values, double share) {
   if (values.empty()) return 0.0;
   const auto at = static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -106,12 +140,12 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
       if (holding < 0 && look.inside() && depth >= -kRim && depth <= 1.0 + kRim)
         holding = static_cast<int>(i);
       const CapturedMap& map = looks.map_at(i);
-      if (frame.selection == MapSelection::view_depth && chosen < 0 && seen.depths[p] >= map.begin &&
+      if (looks.selection() == MapSelection::view_depth && chosen < 0 && seen.depths[p] >= map.begin &&
           seen.depths[p] <= map.end)
         chosen = static_cast<int>(i);
     }
     // Finest of those that hold it.
-    if (frame.selection == MapSelection::finest && holding >= 0) {
+    if (looks.selection() == MapSelection::finest && holding >= 0) {
       double most = 0.0;
       for (std::size_t i = 0; i < looks.map.size(); ++i) {
         const Look& look = looks.of[i][p];
@@ -122,7 +156,7 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
         chosen = static_cast<int>(i);
       }
     }
-    if (frame.selection == MapSelection::first_holding) chosen = holding;
+    if (looks.selection() == MapSelection::first_holding) chosen = holding;
     looks.chosen.push_back(chosen);
     looks.holding.push_back(holding);
   }

@@ -28,6 +28,15 @@ struct Look {
 [[nodiscard]] Look look_at(const CapturedMap& map, const ClipSpace& space, const Light& light,
                            const glm::dvec3& point);
 
+/// The axes of a perspective map, from its matrix alone.
+struct PerspectiveAxes {
+  bool perspective = false;  ///< false: parallel, and nothing else is set
+  glm::dvec3 forward{0.0};   ///< unit
+  glm::dvec2 middle{0.0};    ///< where the axis is in the map: ndc
+  glm::dvec2 focal{1.0};     ///< 1 over the tangent of half the field of view
+};
+[[nodiscard]] PerspectiveAxes perspective_axes(const CapturedMap& map) noexcept;
+
 /// All maps of one light over the points of one frame.
 struct LightLooks {
   const CapturedFrame* frame = nullptr;
@@ -40,6 +49,7 @@ struct LightLooks {
   std::vector<char> counts;           ///< by point: on the lit side, within the depths that maps serve
   std::vector<int> chosen;            ///< by point: map of this light that the selection takes, -1: none
   std::vector<int> holding;           ///< by point: first map that holds it, in depth, too; -1: none
+  [[nodiscard]] MapSelection selection() const { return frame->selection[static_cast<std::size_t>(light)]; }
   [[nodiscard]] const Light& source() const { return frame->lights[static_cast<std::size_t>(light)]; }
   [[nodiscard]] const CapturedMap& map_at(std::size_t i) const { return frame->maps[map[i]]; }
 };
@@ -47,6 +57,10 @@ struct LightLooks {
 [[nodiscard]] LightLooks looks_of(const Capture& capture, const CapturedFrame& frame,
                                   const CapturedScene& scene, const SeenSurfaces& seen, int light);
 
+/// Radius of the ball round the part of the view at the map's depths, world units. `deepest`: where the map's
+/// depths have no end.
+[[nodiscard]] double slice_radius(const CapturedFrame& frame, const CapturedMap& map,
+                                  double deepest) noexcept;
 /// How far along a way from a point, world units per length of `way`, the map's depth is `depth`, 0..1.
 [[nodiscard]] double way_to_depth(const CapturedMap& map, const ClipSpace& space, const glm::dvec3& point,
                                   const glm::dvec3& way, double depth) noexcept;

@@ -30,14 +30,14 @@ TEST(Captures, are_read_frame_by_frame) {
   EXPECT_EQ(capture.scenes[0].receivers.size(), 41u);
   const CapturedFrame& frame = capture.frames[3];
   EXPECT_EQ(frame.maps.size(), 4u);
-  EXPECT_EQ(frame.selection, MapSelection::view_depth);
+  EXPECT_EQ(frame.selection.front(), MapSelection::view_depth);
   EXPECT_EQ(frame.maps[2].path, "frames[3].maps[2]");
   EXPECT_TRUE(frame.maps[0].stores_back);
   EXPECT_NEAR(frame.camera.near_depth, 0.5, 1e-6);
 }
 
 TEST(Captures, of_maps_without_depths_choose_by_what_maps_hold) {
-  EXPECT_EQ(read_capture(shipped("three_spot").dump()).frames[0].selection, MapSelection::first_holding);
+  EXPECT_EQ(read_capture(shipped("three_spot").dump()).frames[0].selection.front(), MapSelection::first_holding);
 }
 
 TEST(Captures, that_are_broken_are_refused_by_key) {
