@@ -66,7 +66,5 @@ void check_motion(const Capture& capture, const LightLooks& before, const LightL
 [[nodiscard]] double texel_side(const Look& look);
 /// "map 2".
 [[nodiscard]] std::string map_name(const LightLooks& looks, std::size_t map);
-/// "1.23 %".
-[[nodiscard]] std::string percent(double share);
 
 }  // namespace gnomon::judge

@@ -307,6 +307,11 @@ std::vector<Finding> FindingList::sorted() const {
   return all;
 }
 
+double share_in_no_map(const AliasingStats& error) noexcept {
+  const auto points = static_cast<double>(error.samples + error.outside);
+  return points > 0.0 ? static_cast<double>(error.outside) / points : 0.0;
+}
+
 std::vector<const LightFigures::Planned*> LightFigures::planned() const {
   std::vector<const Planned*> all;
   for (const std::optional<Planned>* one : {&tight, &stable})

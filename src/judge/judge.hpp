@@ -46,6 +46,8 @@ inline constexpr std::size_t kFindingKinds = static_cast<std::size_t>(FindingKin
 
 /// Three digits.
 [[nodiscard]] std::string digits(double value);
+/// "1.23 %".
+[[nodiscard]] std::string percent(double share);
 
 /// One fault of one light's maps, with its largest extent over all frames.
 struct Finding {
@@ -60,6 +62,9 @@ struct Finding {
   int frames = 1;                   ///< in how many frames it is
   std::optional<glm::dvec2> pixel;  ///< where in that frame's image
 };
+
+/// Of the points that maps are to serve.
+[[nodiscard]] double share_in_no_map(const AliasingStats& error) noexcept;
 
 /// One visible point of the first frame. No map serves it: infinite. Nothing to sample: negative.
 struct SeenError {

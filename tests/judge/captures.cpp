@@ -2,6 +2,7 @@
 #include "captures.hpp"
 
 #include <fstream>
+#include <glm/ext/matrix_transform.hpp>
 
 namespace gnomon::judge::test {
 
@@ -37,6 +38,12 @@ Json numbers(const glm::dmat4& matrix) {
   Json list = Json::array();
   for (int i = 0; i < 16; ++i) list.push_back(matrix[i / 4][i % 4]);
   return list;
+}
+
+glm::dmat4 scaled(double x, double y, double z, double shift_z) {
+  glm::dmat4 m = glm::scale(glm::dmat4(1.0), {x, y, z});
+  m[3][2] = shift_z;
+  return m;
 }
 
 void transform_maps(Json& capture, const glm::dmat4& left, int only) {

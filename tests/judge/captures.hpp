@@ -24,6 +24,8 @@ void for_each_map(Json& capture, const std::function<void(Json& map, std::size_t
 /// A matrix of the file, and back.
 [[nodiscard]] glm::dmat4 matrix(const Json& numbers);
 [[nodiscard]] Json numbers(const glm::dmat4& matrix);
+/// A matrix for transform_maps().
+[[nodiscard]] glm::dmat4 scaled(double x, double y, double z, double shift_z = 0.0);
 /// Multiplies `left` onto the left of every map's matrix.
 void transform_maps(Json& capture, const glm::dmat4& left, int only = -1);
 

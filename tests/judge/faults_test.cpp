@@ -15,12 +15,6 @@ struct Fault {
   std::string kind;
 };
 
-glm::dmat4 scaled(double x, double y, double z, double shift_z = 0.0) {
-  glm::dmat4 m = glm::scale(glm::dmat4(1.0), {x, y, z});
-  m[3][2] = shift_z;
-  return m;
-}
-
 void each_map(Json& c, const char* key, const Json& value, int only = -1) {
   for_each_map(c, [&](Json& map, std::size_t index) {
     if (only < 0 || index == static_cast<std::size_t>(only)) map[key] = value;

@@ -90,8 +90,11 @@ Json judgement_json(const judge::Capture& capture, const SceneJudgement& result)
 }
 
 std::string error_text(const AliasingStats& error) {
-  return "p50 " + judge::digits(error.p50) + ", p95 " + judge::digits(error.p95) + ", max " +
-         judge::digits(error.max);
+  if (error.samples == 0) return "of nothing that is seen";
+  std::string text = "p50 " + judge::digits(error.p50) + ", p95 " + judge::digits(error.p95) + ", max " +
+                     judge::digits(error.max);
+  if (error.outside > 0) text += "; " + judge::percent(judge::share_in_no_map(error)) + " in no map";
+  return text;
 }
 
 void print_drawn(const DrawnLightErrors& errors) {
@@ -103,16 +106,26 @@ void print_drawn(const DrawnLightErrors& errors) {
   if (errors.planned) print_line("  gnomon's plan, fit tight: " + text(*errors.planned));
 }
 
-/// " [also maps 1 and 2]"; empty where there are none.
+/// " [also in maps 1, 2]"; empty where there are none.
 std::string also_text(const judge::Finding& finding) {
   std::string text;
-  for (const int map : finding.also) text += (text.empty() ? " [also in map " : ", ") + std::to_string(map);
+  for (const int map : finding.also)
+    text += (text.empty() ? (finding.also.size() > 1 ? " [also in maps " : " [also in map ") : ", ") +
+            std::to_string(map);
   return text.empty() ? text : text + "]";
 }
 
 std::string maps_text(int maps, std::int64_t texels, const AliasingStats& error) {
   return std::to_string(maps) + (maps == 1 ? " map, " : " maps, ") + std::to_string(texels) +
          " texels; m: " + error_text(error);
+}
+
+/// What the plan is to the capture's maps.
+std::string gain_text(const AliasingStats& captured, const AliasingStats& planned) {
+  const double times = captured.p95 / planned.p95;
+  if (!(std::isfinite(times) && times > 0.0)) return {};
+  return times >= 1.0 ? " (p95: " + judge::digits(times) + " times less)"
+                      : " (p95: " + judge::digits(1.0 / times) + " times more)";
 }
 
 void print_finding(const judge::Finding& finding, std::size_t frames) {
@@ -136,9 +149,13 @@ void print_text(const judge::Capture& capture, const SceneJudgement& result) {
   for (const judge::LightFigures& light : judgement.lights) {
     print_line("light " + std::to_string(light.light) + ": " +
                maps_text(light.plan.map_count, light.texels, light.error));
+    for (std::size_t i = 0; light.of_map.size() > 1 && i < light.of_map.size(); ++i)
+      print_line("  map " + std::to_string(light.of_map[i].map) +
+                 ": m: " + error_text(light.of_map[i].error));
     for (const judge::LightFigures::Planned* planned : light.planned())
       print_line("  gnomon, fit " + std::string(to_string(planned->fit)) + ": " +
-                 maps_text(planned->plan.map_count, planned->texels, planned->error));
+                 maps_text(planned->plan.map_count, planned->texels, planned->error) +
+                 gain_text(light.error, planned->error));
     if (const DrawnLightErrors* drawn = result.drawn_of(light)) print_drawn(*drawn);
   }
   for (const judge::Finding& finding : judgement.findings) print_finding(finding, capture.frames.size());

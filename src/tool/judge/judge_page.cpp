@@ -1,8 +1,11 @@
 // The page of a judgement: figures, findings and the picture that they are about.
 #include "judge/judge_page.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "page_files.hpp"
 #include "text.hpp"
@@ -100,17 +103,32 @@ std::string legend() {
   return out + "</p>";
 }
 
+/// Beside marks that are there, and whole.
+glm::dvec2 free_place(const glm::dvec2& pixel, double radius, const Camera& camera,
+                      const std::vector<glm::dvec2>& taken) {
+  const glm::dvec2 low(radius), high = glm::dvec2(camera.width, camera.height) - radius;
+  glm::dvec2 place = glm::clamp(pixel, low, high);
+  const auto hides = [&](const glm::dvec2& other) { return glm::distance(place, other) < 2.0 * radius; };
+  for (std::size_t i = 0; i < taken.size() && std::any_of(taken.begin(), taken.end(), hides); ++i) {
+    place.x += 2.0 * radius;
+    if (place.x > high.x) place = {low.x, std::min(place.y + 2.0 * radius, high.y)};
+  }
+  return place;
+}
+
 /// Numbers of the findings where they are in the first frame's image.
 std::string marks_of(const judge::Judgement& judgement, int light, const Camera& camera) {
   std::string out;
+  std::vector<glm::dvec2> taken;
   const double radius = 0.016 * camera.width, scale = radius / 10.0;
   for (std::size_t i = 0; i < judgement.findings.size(); ++i) {
     const judge::Finding& finding = judgement.findings[i];
     if (finding.light != light || finding.frame != 0 || !finding.pixel) continue;
-    out += "<g transform=\"translate(" + short_number(finding.pixel->x) + " " +
-           short_number(finding.pixel->y) + ") scale(" + short_number(scale) + ")\"><title>" +
-           escaped(finding.what) + "</title><circle class=\"spot\" r=\"10\"/><text>" + std::to_string(i + 1) +
-           "</text></g>";
+    const glm::dvec2 place = free_place(*finding.pixel, radius, camera, taken);
+    taken.push_back(place);
+    out += "<g transform=\"translate(" + short_number(place.x) + " " + short_number(place.y) + ") scale(" +
+           short_number(scale) + ")\"><title>" + escaped(finding.what) +
+           "</title><circle class=\"spot\" r=\"10\"/><text>" + std::to_string(i + 1) + "</text></g>";
   }
   return out;
 }
@@ -124,27 +142,31 @@ std::string error_cells(const AliasingStats& error) {
 std::string figures_table(const judge::LightFigures& light) {
   std::string out = report::scroll_box("Errors of light " + std::to_string(light.light)) +
                     "<table><thead><tr><th>maps</th><th>texels</th><th>m p50</th><th>p95</th>"
-                    "<th>max</th></tr></thead><tbody>";
+                    "<th>max</th><th>in no map</th></tr></thead><tbody>";
   const auto row = [&](const std::string& name, std::int64_t texels, const AliasingStats& error) {
     return "<td>" + name + "</td><td>" + (texels > 0 ? std::to_string(texels) : "") + "</td>" +
-           error_cells(error) + "</tr>";
+           error_cells(error) + "<td>";
   };
-  out += "<tr>" + row("the capture's " + std::to_string(light.plan.map_count), light.texels, light.error);
+  const auto whole = [&](const std::string& name, std::int64_t texels, const AliasingStats& error) {
+    return row(name, texels, error) + report::percent(judge::share_in_no_map(error)) + "</td></tr>";
+  };
+  out += "<tr>" + whole("the capture's " + std::to_string(light.plan.map_count), light.texels, light.error);
   if (light.of_map.size() > 1) {
     for (const judge::LightFigures::OfMap& map : light.of_map)
-      out += "<tr>" + row("&nbsp; map " + std::to_string(map.map), 0, map.error);
+      out += "<tr>" + row("&nbsp; map " + std::to_string(map.map), 0, map.error) + "</td></tr>";
   }
   for (const judge::LightFigures::Planned* planned : light.planned())
-    out += "<tr class=\"best\">" + row("gnomon's " + std::to_string(planned->plan.map_count) + ", fit " +
-                                           std::string(to_string(planned->fit)),
-                                       planned->texels, planned->error);
+    out += "<tr class=\"best\">" + whole("gnomon's " + std::to_string(planned->plan.map_count) + ", fit " +
+                                             std::string(to_string(planned->fit)),
+                                         planned->texels, planned->error);
   return out + "</tbody></table>" + std::string(report::kScrollBoxEnd);
 }
 
 std::string place_of(const judge::Capture& capture, const judge::Finding& finding) {
   std::string out = std::string(to_string(finding.kind)) + (judge::is_waste(finding.kind) ? " (waste)" : "") +
                     " · light " + std::to_string(finding.light);
-  if (finding.map >= 0) out += ", map " + std::to_string(finding.map);
+  if (finding.map >= 0) out += (finding.also.empty() ? ", map " : ", maps ") + std::to_string(finding.map);
+  if (!finding.also.empty()) out += " (worst)";
   for (const int map : finding.also) out += ", " + std::to_string(map);
   if (capture.frames.size() > 1)
     out += " · " + std::to_string(finding.frames) + " of " + std::to_string(capture.frames.size()) +
@@ -152,6 +174,7 @@ std::string place_of(const judge::Capture& capture, const judge::Finding& findin
   if (finding.pixel)
     out += " · pixel " + std::to_string(std::lround(finding.pixel->x)) + ", " +
            std::to_string(std::lround(finding.pixel->y));
+  if (finding.unit == "share") return out + " · " + report::percent(finding.size);
   return out + " · " + short_number(finding.size) + " " + std::string(finding.unit);
 }
 
