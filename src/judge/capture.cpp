@@ -7,8 +7,8 @@
 
 #include "base/bounded_file.hpp"
 #include "json_fields.hpp"
-#include "json_place.hpp"
 #include "json_text.hpp"
+#include "judge/json_place.hpp"
 #include "shared_fields.hpp"
 
 namespace gnomon::judge {

@@ -307,7 +307,7 @@ std::vector<Finding> FindingList::sorted() const {
   return all;
 }
 
-double share_in_no_map(const AliasingStats& error) noexcept {
+double share_missed(const AliasingStats& error) noexcept {
   const auto points = static_cast<double>(error.samples + error.outside);
   return points > 0.0 ? static_cast<double>(error.outside) / points : 0.0;
 }

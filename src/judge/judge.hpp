@@ -63,8 +63,8 @@ struct Finding {
   std::optional<glm::dvec2> pixel;  ///< where in that frame's image
 };
 
-/// Of the points that maps are to serve.
-[[nodiscard]] double share_in_no_map(const AliasingStats& error) noexcept;
+/// Points that the map chosen for them does not hold, of all that maps are to serve.
+[[nodiscard]] double share_missed(const AliasingStats& error) noexcept;
 
 /// One visible point of the first frame. No map serves it: infinite. Nothing to sample: negative.
 struct SeenError {

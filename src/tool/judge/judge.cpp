@@ -93,7 +93,7 @@ std::string error_text(const AliasingStats& error) {
   if (error.samples == 0) return "of nothing that is seen";
   std::string text = "p50 " + judge::digits(error.p50) + ", p95 " + judge::digits(error.p95) + ", max " +
                      judge::digits(error.max);
-  if (error.outside > 0) text += "; " + judge::percent(judge::share_in_no_map(error)) + " in no map";
+  if (error.outside > 0) text += "; " + judge::percent(judge::share_missed(error)) + " not in their map";
   return text;
 }
 

@@ -142,13 +142,13 @@ std::string error_cells(const AliasingStats& error) {
 std::string figures_table(const judge::LightFigures& light) {
   std::string out = report::scroll_box("Errors of light " + std::to_string(light.light)) +
                     "<table><thead><tr><th>maps</th><th>texels</th><th>m p50</th><th>p95</th>"
-                    "<th>max</th><th>in no map</th></tr></thead><tbody>";
+                    "<th>max</th><th>not in their map</th></tr></thead><tbody>";
   const auto row = [&](const std::string& name, std::int64_t texels, const AliasingStats& error) {
     return "<td>" + name + "</td><td>" + (texels > 0 ? std::to_string(texels) : "") + "</td>" +
            error_cells(error) + "<td>";
   };
   const auto whole = [&](const std::string& name, std::int64_t texels, const AliasingStats& error) {
-    return row(name, texels, error) + report::percent(judge::share_in_no_map(error)) + "</td></tr>";
+    return row(name, texels, error) + report::percent(judge::share_missed(error)) + "</td></tr>";
   };
   out += "<tr>" + whole("the capture's " + std::to_string(light.plan.map_count), light.texels, light.error);
   if (light.of_map.size() > 1) {

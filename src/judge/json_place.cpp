@@ -1,10 +1,10 @@
 // On which line of JSON text is the value that a path names?
-#include "json_place.hpp"
+#include "judge/json_place.hpp"
 
 #include <algorithm>
 #include <charconv>
 
-namespace gnomon {
+namespace gnomon::judge {
 namespace {
 
 constexpr std::string_view kSpace = " \t\r\n";
@@ -88,4 +88,4 @@ std::size_t line_of(std::string_view text, std::string_view path, std::size_t& f
   return static_cast<std::size_t>(std::count(before.begin(), before.end(), '\n')) + 1;
 }
 
-}  // namespace gnomon
+}  // namespace gnomon::judge
