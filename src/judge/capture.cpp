@@ -8,6 +8,7 @@
 #include "base/bounded_file.hpp"
 #include "json_fields.hpp"
 #include "json_text.hpp"
+#include "judge/capture_scene.hpp"
 #include "judge/json_place.hpp"
 #include "shared_fields.hpp"
 
@@ -19,15 +20,13 @@ using nlohmann::json;
 constexpr std::string_view kFormat = "gnomon-capture/1";
 constexpr std::size_t kMostFrames = 4096, kMostLights = 64;
 constexpr std::size_t kMostThings = 4'000'000;
-constexpr int kLargestMap = 1 << 16;
-constexpr double kLargestNumber = 1e30;
 
 /// Keys of the file, and those of a frame, which stand beside them for all frames.
 constexpr std::array<std::string_view, 8> kFileKeys{
     "format", "name", "engine", "clip_space", "camera_clip_space", "matrices", "atlas", "frames"};
-constexpr std::array<std::string_view, 8> kFrameKeys{"camera",    "lights",  "maps",   "selection",
-                                                     "receivers", "casters", "points", "bias"};
-constexpr std::array<std::string_view, 3> kSceneKeys{"receivers", "casters", "points"};
+constexpr std::array<std::string_view, 9> kFrameKeys{
+    "camera", "lights", "maps", "selection", "receivers", "casters", "points", "depth_picture", "bias"};
+constexpr std::array<std::string_view, 4> kSceneKeys{"receivers", "casters", "points", "depth_picture"};
 
 /// Whether the key has the first of two words; false where it is absent.
 bool flag(const Fields& fields, std::string_view key, std::string_view yes, std::string_view no) {
@@ -56,12 +55,6 @@ glm::dmat4 matrix_from(const Fields& fields, std::string_view key, const Convent
     (convention.rows_first ? m[i % 4][i / 4] : m[i / 4][i % 4]) = value;
   }
   return m;
-}
-
-int size_from(const Fields& fields, std::string_view key) {
-  const int size = fields.integer(key);
-  if (size < 1 || size > kLargestMap) fields.refuse(key, "must lie in 1..65536");
-  return size;
 }
 
 Camera camera_of(const json& value, const std::string& path, const Convention& convention) {
@@ -158,40 +151,6 @@ CapturedMap map_of(const json& value, const std::string& path, const Convention&
   map.has_bias = fields.has("bias") || bias;
   map.bias = fields.has("bias") ? bias_of(fields.at("bias"), path + ".bias") : bias.value_or(CapturedBias{});
   return map;
-}
-
-void read_points(const Fields& fields, CapturedScene& scene) {
-  constexpr std::size_t kMostPoints = 100000;
-  if (fields.at("points").size() > kMostPoints) fields.refuse("points", "holds more than 100000");
-  ListedPoints listed = points_from(fields, "points");
-  scene.points = std::move(listed.points);
-  for (std::size_t i = 0; i < listed.normals.size(); ++i) {
-    const double length = glm::length(listed.normals[i]);
-    if (!(length > 0.0))
-      throw CaseError(element_path(fields.path_of("points"), i) + ": has a normal without length");
-    scene.normals.push_back(listed.normals[i] / length);
-  }
-}
-
-std::vector<Box> boxes_of(const Fields& fields, std::string_view key) {
-  if (!fields.has(key)) return {};
-  std::vector<Box> boxes = fields.boxes(key);
-  for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const Box& box = boxes[i];
-    const double largest = std::max(glm::length(box.min), glm::length(box.max));
-    if (box.empty() || !(largest <= kLargestNumber))
-      throw CaseError(element_path(fields.path_of(key), i) +
-                      (box.empty() ? ": has min above max" : ": is beyond 1e30"));
-  }
-  return boxes;
-}
-
-CapturedScene scene_of(const Fields& fields) {
-  CapturedScene scene;
-  scene.receivers = boxes_of(fields, "receivers");
-  scene.casters = boxes_of(fields, "casters");
-  if (fields.has("points")) read_points(fields, scene);
-  return scene;
 }
 
 void read_maps(const Fields& fields, const Convention& convention, CapturedFrame& frame) {
@@ -303,8 +262,10 @@ Capture read_capture(std::string_view json_text) {
   capture.scenes.push_back(scene_of(fields));
   if (!fields.has("frames")) {
     capture.frames.push_back(frame_of(shared, "", convention));
+    read_depth_picture(fields, capture.frames.back().camera, capture.scenes.back());
     return capture;
   }
+  if (fields.has("depth_picture")) fields.refuse("depth_picture", "stands beside frames: each has its own");
   const json& list = fields.at("frames");
   if (!list.is_array() || list.empty() || list.size() > kMostFrames)
     fields.refuse("frames", "needs a list of 1 to 4096 frames");
@@ -322,7 +283,9 @@ Capture read_capture(std::string_view json_text) {
     capture.frames.push_back(frame_of(frame, path, convention));
     if (!own_scene) continue;
     capture.frames.back().scene = capture.scenes.size();
-    capture.scenes.push_back(scene_of(Fields(frame, path, kFrameKeys)));
+    const Fields frame_fields(frame, path, kFrameKeys);
+    capture.scenes.push_back(scene_of(frame_fields));
+    read_depth_picture(frame_fields, capture.frames.back().camera, capture.scenes.back());
     const CapturedScene& scene = capture.scenes.back();
     things += scene.receivers.size() + scene.casters.size() + scene.points.size();
     if (things > kMostThings)

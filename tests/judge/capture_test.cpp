@@ -37,7 +37,8 @@ TEST(Captures, are_read_frame_by_frame) {
 }
 
 TEST(Captures, of_maps_without_depths_choose_by_what_maps_hold) {
-  EXPECT_EQ(read_capture(shipped("three_spot").dump()).frames[0].selection.front(), MapSelection::first_holding);
+  EXPECT_EQ(read_capture(shipped("three_spot").dump()).frames[0].selection.front(),
+            MapSelection::first_holding);
 }
 
 TEST(Captures, that_are_broken_are_refused_by_key) {

@@ -43,7 +43,8 @@ for name, capture in captures.items():
 # What the schema refuses, the program refuses.
 sound = captures["ogre_pssm.json"]
 for key, value in {"format": "gnomon-capture/2", "maps": [], "lights": [], "selection": "nearest", "matrices": "rows", "atlas": [0, 1],
-                   "frames": [], "points": [[1, 2]], "receivers": [{"min": [0, 0, 0]}], "clip_space": {"ndc_depth": "one"},
+                   "frames": [], "points": [[1, 2]], "depth_picture": {"width": 2, "height": 2},
+                   "bias": {"depth": 2}, "receivers": [{"min": [0, 0, 0]}], "clip_space": {"ndc_depth": "one"},
                    "nonsense": 1}.items():
     broken = {**sound, key: value}
     assert list(validator.iter_errors(broken)), key
