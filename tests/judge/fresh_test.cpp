@@ -114,7 +114,7 @@ TEST(FreshFaults, a_quarter_of_the_texels_is_a_step_of_density_and_no_wrong_orde
   EXPECT_THAT(kinds(judgement), testing::Not(testing::Contains("selection_disagrees")));
 }
 
-TEST(FreshFaults, a_map_that_serves_few_points_swims_as_others_do) {
+TEST(FreshFaults, a_map_that_serves_few_points_is_held_still_as_others_are) {
   Json c = sound("three_csm");
   double sum = 0.0;
   for (Json& frame : c["frames"]) {
