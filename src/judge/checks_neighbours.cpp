@@ -15,9 +15,10 @@ void check_steps(const LightLooks& looks, const BrokenMaps& broken, FindingList&
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return looks.map_at(a).begin < looks.map_at(b).begin; });
-  // Texels grow as the slices of the view do; by far more is a fault of the maps, and this much one of the
-  // slices.
+  // Texels grow as the slices of the view do. What grows more has maps that do not fit their slices.
   constexpr double kMost = 16.0, kStep = 6.0, kTimesSlices = 2.5;
+  const auto& depths = looks.seen->depths;
+  const double deepest = depths.empty() ? 0.0 : *std::max_element(depths.begin(), depths.end());
   constexpr double kNear = 0.25;  // of the depth
   for (std::size_t k = 0; k + 1 < order.size(); ++k) {
     const std::size_t near = order[k], far = order[k + 1];
@@ -32,8 +33,8 @@ void check_steps(const LightLooks& looks, const BrokenMaps& broken, FindingList&
     constexpr std::size_t kEnough = 5;
     const double ratio = quantile(ratios), size = std::max(ratio, 1.0 / ratio);
     if (ratios.size() < kEnough) continue;
-    const double slices = slice_radius(*looks.frame, looks.map_at(far), edge) /
-                          slice_radius(*looks.frame, looks.map_at(near), edge);
+    const double slices = slice_radius(*looks.frame, looks.map_at(far), deepest) /
+                          slice_radius(*looks.frame, looks.map_at(near), deepest);
     const bool odd = size > kStep && std::max(ratio / slices, slices / ratio) > kTimesSlices;
     if (!odd && !(size > kMost)) continue;
     Finding finding = finding_of(FindingKind::density_step, looks, far, size, "times");

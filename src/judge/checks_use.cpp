@@ -27,11 +27,11 @@ void report_unseen(const LightLooks& looks, std::size_t map_index, const Use& us
   const double share = std::min(1.0, size.x / map.width) * std::min(1.0, size.y / map.height);
   // A map that turns with no view is as wide as its depths are long; a local light's as wide as its cone.
   constexpr double kNearlyNone = 0.005, kLeastUsed = 0.08, kTimesSlice = 1.5;
+  const double deepest = std::isfinite(map.end) ? map.end : use.deepest;
   const bool sun = std::holds_alternative<DirectionalLight>(looks.source());
-  const bool wide =
-      sun && share < kLeastUsed &&
-      std::min(map.width, map.height) - 2.0 * map.filter_texels >
-          kTimesSlice * 2.0 * slice_radius(*looks.frame, map, use.deepest) / quantile(use.sides);
+  const bool wide = sun && share < kLeastUsed &&
+                    std::min(map.width, map.height) - 2.0 * map.filter_texels >
+                        kTimesSlice * 2.0 * slice_radius(*looks.frame, map, deepest) / quantile(use.sides);
   if (!wide && !(share < kNearlyNone)) return;
   Finding finding = finding_of(FindingKind::texels_unseen, looks, map_index, 1.0 - share, "share");
   finding.what = percent(1.0 - share) + " of the texels of " + map_name(looks, map_index) +

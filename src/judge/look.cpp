@@ -83,7 +83,7 @@ PerspectiveAxes perspective_axes(const CapturedMap& map) noexcept {
 double slice_radius(const CapturedFrame& frame, const CapturedMap& map, double deepest) noexcept {
   const Camera& camera = frame.camera;
   const double begin = std::max(map.begin, camera.near_depth);
-  const double end = std::min(std::isfinite(map.end) ? map.end : deepest, camera.far_depth);
+  const double end = std::min({map.end, deepest, camera.far_depth});
   std::array<glm::dvec3, 8> corners{};
   glm::dvec3 middle(0.0);
   for (std::size_t i = 0; i < corners.size(); ++i) {

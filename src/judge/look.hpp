@@ -57,8 +57,7 @@ struct LightLooks {
 [[nodiscard]] LightLooks looks_of(const Capture& capture, const CapturedFrame& frame,
                                   const CapturedScene& scene, const SeenSurfaces& seen, int light);
 
-/// Radius of the ball round the part of the view at the map's depths, world units. `deepest`: where the map's
-/// depths have no end.
+/// Radius of the ball round the part of the view at the map's depths, up to `deepest`, world units.
 [[nodiscard]] double slice_radius(const CapturedFrame& frame, const CapturedMap& map,
                                   double deepest) noexcept;
 /// How far along a way from a point, world units per length of `way`, the map's depth is `depth`, 0..1.
