@@ -47,9 +47,8 @@ std::vector<glm::dvec3> telling_points(const LightLooks& looks, std::size_t map)
   }
   if (!points.empty()) return points;
   if (std::holds_alternative<DirectionalLight>(light)) {
-    points = looks.seen->points;
-    if (points.empty() && !perspective_axes(looks.map_at(map)).perspective)
-      points.push_back(looks.frame->camera.position);
+    if (perspective_axes(looks.map_at(map)).perspective) return looks.seen->points;
+    points.push_back(looks.frame->camera.position);
   } else {
     for (std::size_t p = 0; p < looks.seen->points.size(); ++p) {
       if (looks.of[map][p].inside()) points.push_back(looks.seen->points[p]);
