@@ -97,7 +97,7 @@ struct PageOptions {
   /// exceeds.
   double target_m = 1.0;
   /// Share of the visible points that must meet the target, in (0, 1]. Below 1, pages that few points need
-  /// are left to a level of twice the texel size. That ends where the pool is full: every point has a page.
+  /// are left to twice the texel size, but by `picture`. That ends where the pool is full: all have a page.
   double share = 1.0;
   /// Steps in which texels halve, 1..4. More steps waste fewer texels, and take more look-ups.
   int levels_per_octave = 3;
@@ -107,7 +107,7 @@ struct PageOptions {
   /// Largest side of a level, texels, page_texels..kMaxVirtualTexels: the deepest level is the last below.
   int virtual_texels = 1 << 22;
   /// Each point requests pages this many texels of its level round it, 0..page_texels: for points read at a
-  /// stride, and cameras that move.
+  /// stride, and cameras that move. Policy `picture` does not read it: it opens pages round edges by itself.
   double reach_texels = 0.0;
   /// Resident pages of the coarsest level at every place, so that surfaces without a visible point of their
   /// own keep a shadow. At most four pages for each map of the base.

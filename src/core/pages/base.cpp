@@ -386,6 +386,7 @@ void add_points(const SceneBounds& bounds, PageContext& c) noexcept {
 }
 
 void size_base(int trial, PageContext& c) noexcept {
+  c.sample_count = 0;
   // Sizes over one step of the ladder, evenly spread in any order (van der Corput), and the grids' places
   // with them.
   constexpr double kGolden = 0.6180339887498949, kFarthestShift = 0.125;

@@ -35,17 +35,19 @@ struct PageGrid {
   std::int32_t columns, rows;
 };
 
-/// How much points of one page weigh together: an entry of a hash table.
-struct PageWeight {
-  std::uint32_t key = 0;  ///< 0: empty
-  float weight = 0.0f;
+/// A place whose error policy `picture` weighs.
+struct PageSample {
+  std::uint64_t cell;         ///< of the finest pages, base by base along a Z-order curve
+  float error;                ///< square root of PageContext::excess
+  std::uint32_t at_edge : 1;  ///< of a shadow in the last frame
+  std::uint32_t opens : 31;   ///< of a node of the tree, by bits: below a page of which depth it has its own
 };
 
 /// Levels of all bases.
 inline constexpr std::size_t kLadders = std::size_t{kMaxMaps} * kLadder;
-/// Entries of the table of weights.
-inline constexpr std::size_t kPageWeights = 1 << 14;
-static_assert(kLadders * sizeof(PageGrid) + kPageWeights * sizeof(PageWeight) + 16 <=
+/// Most samples of a plan.
+inline constexpr std::size_t kPageSamples = 60000;
+static_assert(kLadders * sizeof(PageGrid) + kPageSamples * sizeof(PageSample) + 16 <=
               kMaxPageLevels * sizeof(ShadowMap));
 
 struct PageContext;
@@ -54,7 +56,7 @@ struct PageContext;
 struct PageMemory {
   std::span<ShadowMap> levels;     ///< kMaxPageLevels; the plan uses a few dozen
   std::span<PageGrid> grids;       ///< kLadders, in the place of `levels`, which are written last
-  std::span<PageWeight> weights;   ///< kPageWeights, behind the grids
+  std::span<PageSample> samples;   ///< kPageSamples, behind the grids
   std::span<Page> pages;           ///< PageOptions::capacity
   std::span<std::uint32_t> table;  ///< page_table_size(capacity)
   PageContext* context = nullptr;  ///< one
@@ -106,6 +108,8 @@ struct PageContext {
   std::size_t point_count = 0;  ///< outside ones included
   std::uint64_t outside = 0, edge_on = 0;
   std::size_t page_count = 0;
+  std::size_t chosen = 0;                ///< first pages of memory.pages, which the policy opened by itself
+  std::size_t sample_count = 0;          ///< of memory.samples; 0: none were taken yet
   std::array<double, kLadder> shrink{};  ///< texels of a step over those of the first
 
   [[nodiscard]] PageBase& base_of(std::uint32_t level) noexcept { return base[level / kLadder]; }

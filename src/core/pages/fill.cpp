@@ -36,6 +36,7 @@ class Opening {
 
   /// False where the memory is full.
   bool all() noexcept {
+    if (c_.chosen > room_) return false;
     clear();
     if (!sort()) return true;
     for (int step = c_.deepest; step >= 0; --step) {
@@ -75,9 +76,12 @@ class Opening {
 
  private:
   void clear() noexcept {
-    c_.page_count = 0;
     std::fill(table_.begin(), table_.end(), 0u);
     opened_.fill(false);
+    for (c_.page_count = 0; c_.page_count < c_.chosen; ++c_.page_count) {
+      opened_[c_.memory.pages[c_.page_count].level] = true;
+      add_to_table(table_, c_.memory.pages, static_cast<std::uint32_t>(c_.page_count));
+    }
   }
   /// Points by level, in `order`. False where there is none.
   bool sort() noexcept {

@@ -59,7 +59,7 @@ PageMemory parts_of(std::span<std::byte> memory, int capacity) noexcept {
   MemoryParts parts(memory), grids(memory);
   return {parts.take<ShadowMap>(kMaxPageLevels),
           grids.take<PageGrid>(kLadders),
-          grids.take<PageWeight>(kPageWeights),
+          grids.take<PageSample>(kPageSamples),
           parts.take<Page>(static_cast<std::size_t>(capacity)),
           parts.take<std::uint32_t>(page_table_size(capacity)),
           parts.take<PageContext>(1).data(),
@@ -106,6 +106,7 @@ void make_ladder(PageContext& c) noexcept {
 /// Pages for an error of target_m times `factor`; false where the pool does not hold them.
 bool fits(PageContext& c, double factor, PagePlan& plan) noexcept {
   c.target = plan.target_m = c.options.target_m * factor;
+  c.chosen = 0;
   c.options.policy->assign(c);
   plan.points_coarser = 0;
   if (c.options.share == 1.0) return open_pages(c);
