@@ -15,6 +15,8 @@
 
 namespace gnomon {
 
+struct HeldDepths;
+
 /// The camera along the light frame's axes. Its own axes, edges of the image, and size of a pixel per unit of
 /// depth (orthographic: in world units).
 struct ViewInLight {
@@ -99,6 +101,9 @@ struct WarpInput {
   /// Points of visible surfaces inside the body, along the light frame's axes, each for an equal share of the
   /// image: what Objective::picture counts. Not empty where `objective` is that.
   std::span<const glm::dvec3> seen = {};
+  /// Where boxes of receivers are: the body holds air between them. Objective::p95 counts points in them, and
+  /// max compares other warps there. nullptr: the body is all that is known.
+  const HeldDepths* held = nullptr;
   /// Where a search may begin, in place of at everything; nullptr: nothing is known.
   const WarpStart* start = nullptr;
 

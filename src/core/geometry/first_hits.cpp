@@ -1,9 +1,10 @@
-// Where do surfaces lie that the camera sees, as far as boxes tell?
+// Where do surfaces lie that the camera sees, as far as boxes tell? And where on its rays are boxes at all?
 // Based on: Kay, Kajiya, "Ray Tracing Complex Scenes", 1986 (slabs). Taking their hits as points that a map's
 // error is counted at is this project's.
 #include "geometry/first_hits.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -18,7 +19,7 @@ namespace gnomon {
 namespace {
 
 // Rays of the fan: as many points as a percentile takes.
-constexpr std::size_t kRays = 112;
+constexpr std::size_t kRays = HeldDepths::kRays;
 static_assert(kRays <= SeenPoints::kMost);
 
 /// The fan's rays from left to right.
@@ -117,15 +118,16 @@ GNOMON_WIDE void find_passed(const Box& box, const Rays& rays, std::size_t first
   }
 }
 
-/// The nearest boxes on every ray of the fan.
-class NearestBoxes {
+/// The nearest boxes on every ray of the fan, or where all boxes are.
+class BoxesOnRays {
  public:
   static constexpr bool kCuts = false;
   static constexpr std::size_t kMost = 6;
 
   /// `list`: the boxes are asked one by one anyway, after planes; a tree asks first where not to look.
-  NearestBoxes(const Camera& camera, const CameraAxes& axes, bool list) noexcept
-      : camera_(camera), axes_(axes), list_(list) {
+  /// `held`: takes the depths of all boxes; nullptr: the nearest boxes are kept.
+  BoxesOnRays(const Camera& camera, const CameraAxes& axes, bool list, HeldDepths* held) noexcept
+      : camera_(camera), axes_(axes), list_(list), held_(held) {
     find_rays(camera, axes, rays_);
   }
 
@@ -151,10 +153,18 @@ class NearestBoxes {
     return 0;
   }
 
-  /// From now on takes boxes that begin between these view depths alone.
-  void between(double from, double to) noexcept {
-    from_ = from;
-    to_ = to;
+  void look(const Boxes& boxes) noexcept {
+    const std::array<Plane, 6> sides = frustum_planes(camera_, axes_, camera_.near_depth, camera_.far_depth);
+    BoxWalk walk(sides, boxes, camera_.position, *this);
+    constexpr std::size_t kMany = 1 << 14;
+    if (boxes.set() == nullptr || boxes.size() < kMany) return walk.whole();
+    // A tree has no order by depth: what is near first, so that little is looked at behind it.
+    for (const double share : {1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0}) {
+      to_ = share < 1.0 ? camera_.near_depth + (camera_.far_depth - camera_.near_depth) * share
+                        : std::numeric_limits<double>::infinity();
+      walk.whole();
+      from_ = to_;
+    }
   }
 
   /// A point on each ray that meets a box, between the box's sides.
@@ -217,8 +227,13 @@ class NearestBoxes {
   }
   /// Whether the ray may meet a box that is shown there before those that it has.
   [[nodiscard]] bool may_keep(std::size_t ray, const Shown& part) const noexcept {
-    return rays_.y[ray] >= part.bottom && rays_.y[ray] <= part.top &&
-           (count_[ray] < kMost || part.nearest <= box_[ray][kMost - 1].begin);
+    if (!(rays_.y[ray] >= part.bottom && rays_.y[ray] <= part.top)) return false;
+    if (held_ == nullptr) return count_[ray] < kMost || part.nearest <= box_[ray][kMost - 1].begin;
+    // Not where all that it can hold is held.
+    const std::size_t number = kFan.number[ray];
+    HeldDepths::Range range = held_->between(number, max_of(part.nearest, camera_.near_depth), part.farthest);
+    range = {std::max(range.first - 1, 0), std::max(range.last, 0)};
+    return (range.bits() & ~held_->cells[number]) != 0;
   }
 
   void add(const Box& box, const Shown& part) noexcept {
@@ -234,8 +249,21 @@ class NearestBoxes {
             through.begin < camera_.far_depth))
         continue;
       // Of a box that the ray begins in, what is in view.
-      keep(ray, {max_of(through.begin, camera_.near_depth), min_of(through.end, camera_.far_depth)});
+      const Through in_view{max_of(through.begin, camera_.near_depth),
+                            min_of(through.end, camera_.far_depth)};
+      if (held_ == nullptr) {
+        keep(ray, in_view);
+      } else {
+        hold(ray, in_view);
+      }
     }
+  }
+  void hold(std::size_t ray, const Through& through) noexcept {
+    const std::size_t number = kFan.number[ray];
+    HeldDepths::Range range = held_->between(number, through.begin, through.end);
+    // A thin box between two depths holds the nearer one.
+    if (range.first > range.last) range.first = range.last = std::max(range.last, 0);
+    held_->cells[number] |= range.bits();
   }
   /// The nearest few, the same ones in any order of the boxes.
   void keep(std::size_t ray, const Through& through) noexcept {
@@ -257,6 +285,7 @@ class NearestBoxes {
   const Camera& camera_;
   const CameraAxes& axes_;
   bool list_;
+  HeldDepths* held_;
   double from_ = -std::numeric_limits<double>::infinity(), to_ = std::numeric_limits<double>::infinity();
   Rays rays_;
   Passed passed_;  // by the last large box
@@ -299,26 +328,28 @@ std::size_t points_inside(const Polytope& body, std::span<const glm::dvec3> poin
 }
 
 SeenPoints first_hits(const Camera& camera, const CameraAxes& axes, const Boxes& boxes) noexcept {
-  NearestBoxes nearest(camera, axes, boxes.set() == nullptr);
-  const std::array<Plane, 6> sides = frustum_planes(camera, axes, camera.near_depth, camera.far_depth);
-  BoxWalk walk(sides, boxes, camera.position, nearest);
-  constexpr std::size_t kMany = 1 << 14;
-  if (boxes.set() == nullptr || boxes.size() < kMany) {
-    walk.whole();
-  } else {
-    // A tree has no order by depth: what is near first, so that little is looked at behind it.
-    double from = -std::numeric_limits<double>::infinity();
-    for (const double share : {1.0 / 64.0, 1.0 / 16.0, 1.0 / 4.0, 1.0}) {
-      const double to = share < 1.0 ? camera.near_depth + (camera.far_depth - camera.near_depth) * share
-                                    : std::numeric_limits<double>::infinity();
-      nearest.between(from, to);
-      walk.whole();
-      from = to;
-    }
-  }
+  BoxesOnRays nearest(camera, axes, boxes.set() == nullptr, nullptr);
+  nearest.look(boxes);
   SeenPoints seen;
   nearest.points(seen);
   return seen;
+}
+
+HeldDepths::Range HeldDepths::between(std::size_t ray, double begin, double end) const noexcept {
+  const double into = into_cell(ray);
+  const auto place = [&](double depth) {
+    return clamp_to((log2_of(depth) - first) * per_step - into, -1.0, static_cast<double>(kCells));
+  };
+  const int from = static_cast<int>(std::ceil(place(begin))), to = static_cast<int>(std::floor(place(end)));
+  return {std::max(from, 0), std::min(to, kCells - 1)};
+}
+
+HeldDepths held_depths(const Camera& camera, const CameraAxes& axes, const Boxes& boxes,
+                       double nearest) noexcept {
+  HeldDepths held(max_of(nearest, camera.near_depth), camera.far_depth);
+  BoxesOnRays on_rays(camera, axes, boxes.set() == nullptr, &held);
+  on_rays.look(boxes);
+  return held;
 }
 
 SeenPoints some_of(const Camera& camera, const CameraAxes& axes,

@@ -15,6 +15,8 @@
 
 namespace gnomon {
 
+struct HeldDepths;
+
 /// One of several cameras that share the maps.
 struct SharedView {
   Camera camera;
@@ -43,6 +45,7 @@ struct PlanContext {
   const VisibleDepths* visible_depths = nullptr;    // where they are usable; nullptr: unknown
   std::span<const glm::dvec3> visible_points = {};  // world space; empty: unknown
   std::span<const glm::dvec3> seen = {};  // of Objective::picture, relative to the camera; empty: unknown
+  const HeldDepths* held = nullptr;       // of Objective::p95 and max, as WarpInput::held
   double caster_reach = 0.0;              // of casters from the camera along any axis, for Objective::picture
   double nearest_receiver = 0.0;  // no receiver in view has a smaller view depth, for the other objectives
   bool same_light = false;        // as in the last frame, to the last bit

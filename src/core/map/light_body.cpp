@@ -314,6 +314,7 @@ WarpQuestion::WarpQuestion(const PlanContext& c, const MapRequest& request, cons
     receiver = {frame.turned(request.receiver->normal), request.receiver->offset};
     in.receiver = &receiver;
   }
+  in.held = c.held;
   in.seen = seen_inside(c, request, in.depth_begin, seen);
   if (in.objective == Objective::picture && in.seen.size() < SeenPoints::kFewest)
     in.objective = Objective::storage;

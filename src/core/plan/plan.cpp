@@ -182,6 +182,22 @@ void plan_by_light(PlanContext& c, const Light& light, const Resolved& resolved,
   plan_by_light(c, light, resolved, view.depths, history, plan);
 }
 
+/// Whether errors are counted where boxes are: one box is the body.
+bool counts_held(const PlanContext& c) noexcept {
+  const Objective objective = c.options.warp.objective;
+  return (objective == Objective::p95 || objective == Objective::max) && c.how.warp != &warps::none &&
+         !c.camera.orthographic && several(c.bounds.receivers);
+}
+
+/// Out of line, too.
+[[gnu::noinline]] void plan_by_held(PlanContext& c, const View& view, const Light& light,
+                                    const Resolved& resolved, PlanHistory* history,
+                                    ShadowPlan& plan) noexcept {
+  const HeldDepths held = held_depths(c.camera, c.axes, c.bounds.receivers, c.nearest_receiver);
+  c.held = &held;
+  plan_by_light(c, light, resolved, view.depths, history, plan);
+}
+
 /// Fills in the plan of one frame whose camera sees to a finite depth; `history` may be nullptr. `views`: as
 /// PlanCase.
 [[gnu::noinline]] void plan_finite(const View& view, const Light& light, const SceneBounds& bounds,
@@ -196,6 +212,8 @@ void plan_by_light(PlanContext& c, const Light& light, const Resolved& resolved,
   if (resolved.follows_points) context.visible_points = view.points_world;
   if (resolved.counts_seen) {
     plan_by_seen(context, view, light, resolved, history, plan);
+  } else if (views <= 1 && counts_held(context)) {
+    plan_by_held(context, view, light, resolved, history, plan);
   } else {
     plan_by_light(context, light, resolved, view.depths, history, plan);
   }

@@ -4,11 +4,14 @@
 #include "gnomon/extend/body.hpp"
 #include "gnomon/extend/warp.hpp"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
 
 #include "geometry/even_points.hpp"
+#include "geometry/first_hits.hpp"
 #include "geometry/vector.hpp"
 #include "lanes/elementary.hpp"
 #include "lanes/wide.hpp"
@@ -16,10 +19,11 @@
 namespace gnomon {
 namespace {
 
-// Rays through the image for the even sampling, in whole lanes, and points along all of them together.
-constexpr std::size_t kRays = 104;
+// Rays through the image for the even sampling, in whole lanes, and points along all of them together: of the
+// first set, by which a search goes, and of those that compare what was found.
+constexpr std::size_t kRays = HeldDepths::kRays;
 static_assert(kRays % kDoubleLanes == 0);
-constexpr int kVisiblePoints = 96;
+constexpr std::size_t kSearched = 96, kCompared = PixelLanes::kMost;
 
 /// A face of the body as a bound on 1 / depth along the ray (x, y, 1) of the image: linear in x and y, so
 /// that finding where a ray is inside the body takes no division.
@@ -298,25 +302,73 @@ void add_faces(const Polytope& body, double size, PixelLanes& lanes) noexcept {
   }
 }
 
-void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noexcept {
-  const ImageRange image = shown(input);
-  const InverseDepthBounds bounds =
-      inverse_depth_bounds(*input.polytope, input.view, input.depth_begin, image);
-  Rays rays;
-  find_rays(image, set, bounds, 1.0 / input.depth_begin, rays);
+namespace {
+
+/// Evenly spaced in the total length of all rays: each point stands for an equal share of what is seen.
+void spread_points(const Rays& rays, std::size_t count, PixelLanes& lanes) noexcept {
   double total = 0.0;
   for (const double length : rays.length) total += length;
   if (!(total > 0.0 && total < std::numeric_limits<double>::infinity())) return;
-  const std::size_t first = lanes.count;
-  // Evenly spaced in the total length of all rays: each point stands for an equal share of what is seen.
-  const double spacing = total / kVisiblePoints;
+  const double spacing = total / static_cast<double>(count);
   double next = 0.5 * spacing;
   for (std::size_t i = 0; i < kRays; ++i) {
     const double length = rays.length[i];
     for (; next < length; next += spacing) lanes.add({rays.x[i], rays.y[i], rays.begin[i]}, next);
     next -= length;
   }
-  find_points(input.view, first, lanes);
+}
+
+/// Evenly chosen ones of the depths that boxes hold, or the nearest and the farthest of each ray.
+void choose_held(const HeldDepths& held, const Rays& rays, int set, std::size_t count,
+                 PixelLanes& lanes) noexcept {
+  constexpr double kLn2 = 0.6931471805599453;
+  std::array<std::uint64_t, kRays> cells;
+  int total = 0;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    cells[i] = 0;
+    if (!(rays.length[i] > 0.0)) continue;
+    cells[i] = held.cells[i] & held.between(i, rays.begin[i], 1.0 / rays.least[i]).bits();
+    total += std::popcount(cells[i]);
+  }
+  const auto add = [&](std::size_t ray, int cell) {
+    lanes.add({rays.x[ray], rays.y[ray], 1.0},
+              (held.first + held.step * (cell + HeldDepths::into_cell(ray))) * kLn2);
+  };
+  if (set == kRayEnds) {
+    for (std::size_t i = 0; i < kRays; ++i) {
+      if (cells[i] == 0) continue;
+      add(i, std::countr_zero(cells[i]));
+      add(i, HeldDepths::kCells - 1 - std::countl_zero(cells[i]));
+    }
+    return;
+  }
+  const double stride = max_of(1.0, total / static_cast<double>(count));
+  double next = stride * (set + 0.5) / kRaySets;
+  int at = 0;
+  for (std::size_t i = 0; i < kRays; ++i) {
+    for (; cells[i] != 0; cells[i] &= cells[i] - 1, ++at) {
+      if (at < next) continue;
+      next += stride;
+      add(i, std::countr_zero(cells[i]));
+    }
+  }
+}
+
+/// `held`: where boxes are; nullptr: anywhere in the body.
+void add_visible_points(const WarpInput& input, const HeldDepths* held, int set, PixelLanes& lanes) noexcept {
+  const ViewInLight& view = input.view;
+  const ImageRange whole{view.image_left, view.image_right, view.image_bottom, view.image_top};
+  const ImageRange image = held != nullptr ? whole : shown(input);
+  const InverseDepthBounds bounds = inverse_depth_bounds(*input.polytope, view, input.depth_begin, image);
+  Rays rays;
+  find_rays(image, held != nullptr ? 0 : set, bounds, 1.0 / input.depth_begin, rays);
+  const std::size_t first = lanes.count, count = set == 0 ? kSearched : kCompared;
+  if (held != nullptr) {
+    choose_held(*held, rays, set, count, lanes);
+  } else {
+    spread_points(rays, count, lanes);
+  }
+  find_points(view, first, lanes);
   const Polytope* const focus = input.focus;
   if (focus == nullptr || focus->empty()) return;
   for (std::size_t i = first; i < lanes.count; ++i) {
@@ -326,6 +378,18 @@ void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noex
         lanes.size()[i] = input.focus_weight;
     }
   }
+}
+
+}  // namespace
+
+void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noexcept {
+  // A body that few of the image's rays meet has points of its own.
+  constexpr std::size_t kFew = 40;
+  const std::size_t first = lanes.count;
+  if (input.held != nullptr) add_visible_points(input, input.held, set, lanes);
+  if (lanes.count >= first + kFew) return;
+  lanes.count = first;
+  if (set != kRayEnds) add_visible_points(input, nullptr, set, lanes);
 }
 
 void add_seen_points(const WarpInput& input, PixelLanes& lanes) noexcept {

@@ -38,10 +38,12 @@ void add_vertices(const Polytope& body, double size, PixelLanes& lanes) noexcept
 void add_middles(const Polytope& body, double size, PixelLanes& lanes) noexcept;
 /// The middles of faces.
 void add_faces(const Polytope& body, double size, PixelLanes& lanes) noexcept;
-/// Sets of points that have none in common.
-inline constexpr int kRaySets = 8;
-/// Points spread evenly over the pixels that show the body, and over the logarithm of depth. `set`: below
-/// kRaySets.
+/// Sets of points that have none in common. The first is the smallest: a search goes by it.
+inline constexpr int kRaySets = 6;
+/// A further set: where the rays' parts in boxes begin and end; without boxes, or with few rays, none.
+inline constexpr int kRayEnds = kRaySets;
+/// Points spread evenly over the pixels that show the body, and over the logarithm of depth: of boxes in it,
+/// where those are known. `set`: up to kRayEnds.
 void add_visible_points(const WarpInput& input, int set, PixelLanes& lanes) noexcept;
 
 /// Points of surfaces that are seen.

@@ -11,7 +11,7 @@
 #include <limits>
 
 #include "geometry/vector.hpp"
-#include "warp/percentile_choice.hpp"
+#include "warp/best_choice.hpp"
 #include "warp/plane_error.hpp"
 #include "warp/plane_map.hpp"
 #include "warp/registry.hpp"
@@ -115,35 +115,39 @@ RowChoice best_around(RowSearch& search, const RowChoice& best, double radius, d
   return found.value < best.value ? found : best;
 }
 
-struct Judged {
-  WarpChoice choice;
-  double value;
-};
-
-/// The best of the registry's other warps where it is better than `best`; false where none is.
-bool improve_by_others(const WarpInput& input, PlaneError& error, Judged& best) noexcept {
-  std::array<WarpChoice, kDoubleLanes> choice;
-  std::size_t count = 0;
+/// The registry's other warps that are better than `value`, and usable.
+OtherChoices others_below(const WarpInput& input, PlaneError& error, double value) noexcept {
+  OtherChoices others;
   for (const Warp* other : all_warps()) {
-    if (is_searched(*other) || count == choice.size()) continue;
+    if (is_searched(*other) || others.count == others.judged.size()) continue;
     const WarpChoice found = other->choose(input);
-    if (!input.is_unwarped(found)) choice[count++] = found;
+    if (!input.is_unwarped(found)) others.judged[others.count++].choice = found;
   }
-  if (count == 0) return false;
+  if (others.count == 0) return others;
   ChoiceLanes lanes;
-  for (std::size_t i = 0; i < kDoubleLanes; ++i) lanes.set(i, choice[i < count ? i : 0]);
+  for (std::size_t i = 0; i < kDoubleLanes; ++i) lanes.set(i, others.judged[i < others.count ? i : 0].choice);
   LaneAnswers better;
   error.count_bound();
-  error.below(lanes, best.value, better);
+  error.below(lanes, value, better);
   error.count_all();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < others.count; ++i) {
+    const WarpChoice& choice = others.judged[i].choice;
+    if (!better[i] || !usable(input.body, choice, input.most_stretch)) continue;
+    const double exact = error.value(choice);
+    if (exact < value) others.judged[kept++] = {choice, exact};
+  }
+  others.count = kept;
+  return others;
+}
+
+/// The best of the registry's other warps where it is better than `best`; false where none is.
+bool improve_by_others(const OtherChoices& others, Judged& best) noexcept {
   bool improved = false;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (!better[i]) continue;
-    const double exact = error.value(choice[i]);
-    if (less(exact, best.value) && usable(input.body, choice[i], input.most_stretch)) {
-      best = {choice[i], exact};
-      improved = true;
-    }
+  for (std::size_t i = 0; i < others.count; ++i) {
+    if (!less(others.judged[i].value, best.value)) continue;
+    best = others.judged[i];
+    improved = true;
   }
   return improved;
 }
@@ -328,12 +332,11 @@ WarpChoice judged_choice(const WarpInput& input, const Judged& best, double with
   return choice;
 }
 
-/// Measures what the last frame drew against this frame's choice.
-void measure_last(const WarpInput& input, PlaneError& error, double without, WarpChoice& choice) noexcept {
-  if (input.start == nullptr) return;
+/// What the last frame drew: WarpChoice::last_ratio.
+double last_ratio(const WarpInput& input, const PlaneError& error, double without) noexcept {
+  if (input.start == nullptr) return 0.0;
   const WarpStart& start = *input.start;
-  choice.last_ratio =
-      start.has_map ? error.value(start.map) / without : std::numeric_limits<double>::infinity();
+  return start.has_map ? error.value(start.map) / without : std::numeric_limits<double>::infinity();
 }
 
 /// From the last frame's result on. False where that is no start, or no longer a good one.
@@ -375,18 +378,22 @@ WarpChoice search_map(const WarpInput& given, SearchEffort effort) noexcept {
   PlaneError error(input, true);
   if (error.corner_count() == 0) return input.unwarped;
   const double without = error.value(input.unwarped);
+  const double last = last_ratio(input, error, without);
   WarpChoice choice;
   if (use == StartUse::none || !follow(input, error, without, choice)) {
     Judged best{input.unwarped, without};
     const bool quick = effort == SearchEffort::quick, line = is_line(input, error.body());
     if (!line) best = quick ? quick_search(input, error) : thorough_search(input, error);
-    // After the search: a warp that is better than a start is often no better to start from.
-    if (improve_by_others(input, error, best) && !line)
+    // After the search: a warp that is better than a start is often no better to start from. Others that are
+    // nearly as good may be better at other points.
+    const double nearly = min_of(best.value * nearly_as_good(input, error), without);
+    const OtherChoices others = others_below(input, error, max_of(best.value, nearly));
+    if (improve_by_others(others, best) && !line)
       best = turned(input, error, best, quick ? quick_rounds(input.objective) : kThoroughRounds, kStep);
+    best = best_choice(input, error, best, others);
     choice = judged_choice(input, best, without);
-    if (error.is_percentile()) choice = best_percentile(input, choice);
   }
-  measure_last(input, error, without, choice);
+  choice.last_ratio = last;
   return choice;
 }
 

@@ -96,6 +96,14 @@ PlaneError::PlaneError(const WarpInput& input, bool searched, int set) noexcept
   above_ = above(all_);
 }
 
+void PlaneError::take_set(int set) noexcept {
+  sample_.count = 0;
+  add_visible_points(input_, set, sample_);
+  find_pixels(input_, sample_);
+  all_ = sample_.count;
+  above_ = above(all_);
+}
+
 std::size_t PlaneError::above(std::size_t samples) const noexcept {
   const auto wanted = static_cast<std::size_t>(share_ * static_cast<double>(samples));
   return wanted < kMaxAbove ? wanted : kMaxAbove;
@@ -172,7 +180,7 @@ void PlaneError::count_worst(const WarpChoice& choice) noexcept {
   if (mean_) return;  // all of them count
   Rows of_map;
   // Of the squares. A percentile may come to rest farther below its first value.
-  constexpr std::array<double, 4> kNearWorst = {0.6, 0.5, 0.12, 0.5};
+  constexpr std::array<double, 4> kNearWorst = {0.6, 0.5, 0.65, 0.5};
   const bool storage = input_.objective == Objective::storage;
   const double near_worst = kNearWorst[static_cast<std::size_t>(input_.objective)];
   double most_x = 0.0, most_y = 0.0;

@@ -40,8 +40,8 @@ struct BodyLanes {
 class PlaneError {
  public:
   static constexpr std::size_t kMaxSamples = PixelLanes::kMost;
-  /// No more samples than that may exceed the value asked for.
-  static constexpr std::size_t kMaxAbove = 4;
+  /// No more samples than that may exceed the value asked for: of any set, and of the first.
+  static constexpr std::size_t kMaxAbove = 9, kMaxAboveFirst = 4;
 
   /// Samples the body for `input.objective`: vertices and middles of edges, where the largest errors are
   /// (under a local light of faces, too, as its rays fan out), or points spread evenly over the pixels and
@@ -49,6 +49,8 @@ class PlaneError {
   /// end where no sample is; where rays fan out wide, the inside of the body counts then as well. `set`:
   /// other points of the same spread, below kRaySets.
   explicit PlaneError(const WarpInput& input, bool searched = false, int set = 0) noexcept;
+  /// From now on counts another set of visible points.
+  void take_set(int set) noexcept;
 
   /// The objective under `choice`, up to a factor that is the same for every choice; infinite for an unusable
   /// one.

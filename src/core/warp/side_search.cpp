@@ -280,7 +280,7 @@ GNOMON_WIDE void SideSearch::find_percentile(const Maps& maps, SideLanes& candid
   SideLanes& __restrict c = candidates;
   const std::size_t lanes = candidates_ & ~(kFloatLanes - 1), n = samples_, above = above_;
   // The largest few, largest first.
-  alignas(64) std::array<FloatLanes, PlaneError::kMaxAbove + 1> top{};
+  alignas(64) std::array<FloatLanes, PlaneError::kMaxAboveFirst + 1> top{};
   for (std::size_t i = 0; i < n; ++i) {
     const Form::Form f0 = form_.at(i);
     for (std::size_t l = 0; l < lanes; ++l) {

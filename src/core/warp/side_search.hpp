@@ -30,7 +30,7 @@ struct SideLanes {
 class SideSearch {
  public:
   /// The image is the one under `from`, scaled to a unit square: Sides{} is `from` itself. The samples that
-  /// `error` counts now count. The body is no line (is_line), and `from` is usable.
+  /// `error` counts now count, of the first set. The body is no line (is_line), and `from` is usable.
   SideSearch(const WarpInput& input, const PlaneError& error, const WarpChoice& from) noexcept;
 
   /// Each candidate's normals, turned from `sides`, and its value by the objective of the samples that count;

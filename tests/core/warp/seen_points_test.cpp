@@ -8,6 +8,7 @@
 #include <limits>
 #include <vector>
 
+#include "geometry/even_points.hpp"
 #include "geometry/first_hits.hpp"
 #include "gnomon/extend/body.hpp"
 #include "gnomon/gnomon.hpp"
@@ -154,6 +155,96 @@ TEST(SomePoints, are_those_in_view_evenly_chosen) {
   const SeenPoints good = some_of(camera, camera_axes(camera), bad);
   ASSERT_EQ(good.count, 1u);
   EXPECT_EQ(good.point[0], glm::dvec3(0, 0, -5) - camera.position);
+}
+
+HeldDepths held_by(const Camera& camera, const Boxes& boxes) {
+  return held_depths(camera, camera_axes(camera), boxes, camera.near_depth);
+}
+
+/// Depths of a ray's cells, and points there, in world space.
+std::vector<glm::dvec3> points_of(const HeldDepths& held, const Camera& camera, std::size_t ray) {
+  const CameraAxes axes = camera_axes(camera);
+  const glm::dvec3 step = axes.forward +
+                          axes.right * (camera.left + (camera.right - camera.left) * even_x(ray)) +
+                          axes.up * (camera.bottom + (camera.top - camera.bottom) * even_y(ray));
+  std::vector<glm::dvec3> points;
+  for (int cell = 0; cell < HeldDepths::kCells; ++cell) {
+    if ((held.cells[ray] >> cell & 1) == 0) continue;
+    const double log2 = held.first + held.step * (cell + HeldDepths::into_cell(ray));
+    points.push_back(camera.position + step * std::exp2(log2));
+  }
+  return points;
+}
+
+TEST(HeldDepths, know_the_logarithm_to_a_hundredth) {
+  for (double x = 1e-9; x < 1e9; x *= 1.37) EXPECT_NEAR(HeldDepths::log2_of(x), std::log2(x), 0.011) << x;
+  for (int power = -40; power < 40; ++power) EXPECT_EQ(HeldDepths::log2_of(std::exp2(power)), power);
+}
+
+TEST(HeldDepths, are_in_boxes_of_any_number_on_a_ray) {
+  std::vector<Box> walls;
+  for (int i = 0; i < 8; ++i) walls.push_back({{-900, -900, -14.0 - 9.0 * i}, {900, 900, -10.0 - 9.0 * i}});
+  const Camera camera = perspective_camera({0, 0, 0}, {0, 0, -1}, {0, 1, 0}, 1.0, 1.5, 8.0, 200.0, 960, 640);
+  const HeldDepths held = held_by(camera, walls);
+  std::array<int, 8> in_wall{};
+  for (std::size_t ray = 0; ray < HeldDepths::kRays; ++ray) {
+    for (const glm::dvec3& p : points_of(held, camera, ray)) {
+      const double behind = -p.z - 10.0, into = std::fmod(behind, 9.0);
+      constexpr double kApproximate = 0.01;
+      EXPECT_TRUE(into <= 4.0 + kApproximate * -p.z || into >= 9.0 - kApproximate * -p.z) << p.z;
+      ++in_wall[static_cast<std::size_t>(behind / 9.0 + 0.2)];
+    }
+  }
+  // On each of 112 rays as many of 64 cells as the wall takes of the range, but for 0.011 octaves at both
+  // ends.
+  constexpr double kRange = 4.64, kOff = 112.0 * 2.0 * 0.011 * 64.0 / kRange;
+  for (std::size_t i = 0; i < in_wall.size(); ++i) {
+    const double nearest = 10.0 + 9.0 * static_cast<double>(i);
+    const double cells = 64.0 * std::log((nearest + 4.0) / nearest) / std::log(200.0 / 8.0);
+    EXPECT_NEAR(in_wall[i], 112.0 * cells, kOff) << i;
+  }
+}
+
+TEST(HeldDepths, of_a_flat_box_are_one_on_each_ray_that_meets_it) {
+  const Camera camera = street();
+  const HeldDepths held = held_by(camera, std::vector<Box>{{{-900, 0, -900}, {900, 0, 900}}});
+  int rays = 0;
+  for (std::size_t ray = 0; ray < HeldDepths::kRays; ++ray) {
+    const std::vector<glm::dvec3> points = points_of(held, camera, ray);
+    ASSERT_LE(points.size(), 1u);
+    if (points.empty()) continue;
+    ++rays;
+    // In the cell before the ground: cells are 400^(1/64) long.
+    const double height = points[0].y / camera.position.y;
+    EXPECT_GT(height, -0.01);
+    EXPECT_LT(height, 0.11);
+  }
+  EXPECT_GT(rays, 70);
+  EXPECT_LT(rays, 112);
+}
+
+TEST(HeldDepths, are_the_same_of_a_list_and_of_a_set_in_any_order) {
+  std::vector<Box> boxes;
+  for (int i = 0; i < 300; ++i) {
+    const glm::dvec3 at{-40.0 + 9.0 * (i % 10), 0.0, -8.0 - 5.0 * (i / 10)};
+    boxes.push_back({at, at + glm::dvec3(2.0, 0.1 * (i % 7), i % 3 == 0 ? 30.0 : 0.2)});
+  }
+  std::vector<CasterBlock> blocks(CasterSet::block_count(boxes.size()));
+  std::vector<std::uint32_t> indices(CasterSet::index_count(boxes.size()));
+  const CasterSet set(boxes, blocks, indices);
+  const HeldDepths list = held_by(street(), boxes), tree = held_by(street(), set);
+  std::reverse(boxes.begin(), boxes.end());
+  const HeldDepths reversed = held_by(street(), boxes);
+  EXPECT_GT(std::count_if(list.cells.begin(), list.cells.end(), [](std::uint64_t c) { return c != 0; }), 15);
+  EXPECT_EQ(list.cells, tree.cells);
+  EXPECT_EQ(list.cells, reversed.cells);
+}
+
+TEST(HeldDepths, between_depths_that_are_nearly_one_are_finite) {
+  const HeldDepths held(5.0, std::nextafter(5.0, 6.0));
+  EXPECT_GT(held.step, 0.0);
+  const HeldDepths::Range range = held.between(0, 1.0, 9.0);
+  EXPECT_EQ(range.bits(), ~std::uint64_t{0});
 }
 
 /// Points on the street and on the walls beside it.
