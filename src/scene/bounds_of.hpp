@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
 #include "gnomon/scene/scene.hpp"
@@ -21,10 +22,12 @@ namespace gnomon::detail {
   return box;
 }
 
+template <typename T>
+[[nodiscard]] bool is_finite(const glm::vec<3, T>& v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 [[nodiscard]] inline bool is_finite(const Box& box) noexcept {
-  bool finite = true;
-  for (int c = 0; c < 3; ++c) finite = finite && std::isfinite(box.min[c]) && std::isfinite(box.max[c]);
-  return finite;
+  return is_finite(box.min) && is_finite(box.max);
 }
 
 }  // namespace gnomon::detail
