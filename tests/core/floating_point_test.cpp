@@ -70,6 +70,7 @@ struct Frame {
     }
     std::array<glm::dvec3, 8> edges;
     return expected_error(plan, {camera, mask, depths}).wrong_pixels +
+           expected_error(plan, {camera, mask, depths}, 1.5).wrong_pixels +
            static_cast<double>(shadow_edge_points({camera, mask, depths}, edges));
   }
 };

@@ -77,6 +77,8 @@ double ndc_depth_per_world_unit(const glm::dmat4& m, const glm::dvec3& light_dir
 glm::dvec2 texel_extent_world(const glm::dmat4& clip_from_world, const TexelGrid& texels,
                               const glm::dvec3& light_direction, const glm::dvec3& point) noexcept {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  // Asked first: the Jacobian divides by it.
+  if (!(w_at(clip_from_world, point) > 0.0)) return {kInfinite, kInfinite};
   const TexelJacobian b = texel_jacobian(clip_from_world, texels, point);
   if (!(b.w > 0.0)) return {kInfinite, kInfinite};
   // Rows across the light; the inverse of the 2x2 map they span gives a texel's two edges.

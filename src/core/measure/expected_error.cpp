@@ -173,6 +173,8 @@ class TexelsOnPlane {
       : pixels_(pixels), point_(point) {
     const Camera& camera = pixels.camera();
     const TexelGrid grid = map.texels();
+    // Asked first: the Jacobian divides by it.
+    if (!(w_at(map.clip_from_world, point) > 0.0)) return;
     const TexelJacobian texel = texel_jacobian(map.clip_from_world, grid, point);
     if (!(texel.w > 0.0)) return;
     const ViewPoint view = view_point(camera, pixels.axes(), point);
