@@ -144,6 +144,9 @@ if(IS_DIRECTORY ${PROJECT_SOURCE_DIR}/docs)
     PATTERN Doxyfile EXCLUDE)
 endif()
 
+# What gnomon judge is tried on first.
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/samples/capture DESTINATION ${CMAKE_INSTALL_DOCDIR}/samples COMPONENT programs
+  FILES_MATCHING PATTERN "*.json" PATTERN filament EXCLUDE PATTERN ogre EXCLUDE)
 foreach(program gnomon_program flythrough)
   if(TARGET ${program})
     install(TARGETS ${program} RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT programs)
