@@ -101,18 +101,24 @@ class Spaces {
   [[nodiscard]] Must decide(int index, const Receiver3& receiver) {
     const Entry& entry = at(index);
     const FrameSetting& setting = stage_.setting();
-    // Surfaces that cast no shadow are in no map, and are compared by depth.
-    const bool by_identifiers = setting.source.kind == render::SourceKind::identifiers &&
-                                !bends_lines(stage_) && truth_.triangles[receiver.triangle].casts;
-    const Comparing comparing{reach_of(setting, entry.map, by_identifiers), setting.options.linear_depth,
-                              bias()};
-    if (by_identifiers)
-      return entry.space->decide_identifier(receiver, comparing,
-                                            setting.source.test.of == render::IdentifierOf::triangle);
+    const bool by_identifiers =
+        setting.source.kind == render::SourceKind::identifiers && !bends_lines(stage_);
+    const auto comparing = [&](bool identifiers) {
+      return Comparing{reach_of(setting, entry.map, identifiers), setting.options.linear_depth, bias()};
+    };
+    if (by_identifiers) {
+      const Must must = entry.space->decide_identifier(
+          receiver, comparing(true), setting.source.test.of == render::IdentifierOf::triangle);
+      if (truth_.triangles[receiver.triangle].casts) return must;
+      // Surfaces that cast no shadow are in no map, and are compared by depth. Where another lies in their
+      // plane, the picture may show that one.
+      const Must by_depth = entry.space->decide(receiver, comparing(false));
+      return by_depth == Must::lit && must != Must::lit ? Must::undecided : by_depth;
+    }
     const render::Filter& filter = *setting.filter.filter;
     if (filter.info.reads != render::MapRead::depth)
-      return entry.space->decide_even(receiver, comparing, filter.reference.contact);
-    return entry.space->decide(receiver, comparing);
+      return entry.space->decide_even(receiver, comparing(false), filter.reference.contact);
+    return entry.space->decide(receiver, comparing(false));
   }
 
  private:
