@@ -27,6 +27,8 @@ constexpr float kNothing = 1e-30F, kFar = 1e14F, kWidest = 1e7F;
 // (kMaxReach), and gradients. Form and sides then stay below 1e38: (kSteepest kFarSample)^2 kMostSquare 16.
 constexpr double kFarSample = 16.0;
 constexpr float kMostSquare = 1e9F, kSteepest = 1e12F;
+// Growth of w over what points are counted in, at which w rounds by an eighth.
+constexpr float kSteepestW = 1e6F;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 }  // namespace
@@ -207,8 +209,14 @@ GNOMON_WIDE void RowSearch::find_axes(const RowLanes& candidates, Maps& maps) co
       m.u_max[l] = max_of(m.u_max[l], max_of(max_of(u0, u1), max_of(u2, u3)));
     }
   }
+  // Along an axis over which the body is narrower than its numbers round, a larger kappa would make w of
+  // rounding alone, and could make it 0.
+  float farthest = 1.0F;
+  for (std::size_t i = 0; i < n; ++i)
+    farthest = max_of(farthest, max_of(std::abs(point_x_[i]), std::abs(point_y_[i])));
   for (std::size_t l = 0; l < lanes; ++l) {
-    const float kappa = m.reach[l] / divisor(m.u_max[l] - m.u_min[l], kNothing);
+    const float most = kSteepestW / divisor((std::abs(m.u_x[l]) + std::abs(m.u_y[l])) * farthest, kNothing);
+    const float kappa = min_of(m.reach[l] / divisor(m.u_max[l] - m.u_min[l], kNothing), most);
     m.w_x[l] = kappa * m.u_x[l];
     m.w_y[l] = kappa * m.u_y[l];
     m.w_1[l] = 1.0F - kappa * m.u_min[l];
