@@ -89,6 +89,7 @@ bool is_whole(const fs::path& file) {
   if (kind == ".png") return text.starts_with("\x89PNG") && text.ends_with("IEND\xAE\x42\x60\x82");
   if (kind == ".svg") return text.ends_with("</svg>\n") || text.ends_with("</svg>");
   if (kind == ".html") return text.ends_with("</html>\n");
+  if (kind == ".json") return text.ends_with("}\n");
   return (kind == ".csv" || kind == ".md" || kind == ".tex" || kind == ".jsonl") && text.ends_with("\n");
 }
 
