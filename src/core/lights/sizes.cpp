@@ -10,6 +10,8 @@
 #include <cmath>
 #include <cstddef>
 
+#include "geometry/z_order.hpp"
+
 namespace gnomon {
 namespace {
 
@@ -259,15 +261,6 @@ void choose_by_time(std::span<LightWork> lights, const SizeLadder& ladder, const
   for (LightWork& light : lights) light.level = light.other;
 }
 
-/// Every second bit, packed.
-std::uint32_t even_bits(std::uint32_t x) noexcept {
-  x &= 0x55555555u;
-  x = (x | x >> 1) & 0x33333333u;
-  x = (x | x >> 2) & 0x0f0f0f0fu;
-  x = (x | x >> 4) & 0x00ff00ffu;
-  return (x | x >> 8) & 0x0000ffffu;
-}
-
 }  // namespace
 
 double milliseconds_of(std::span<const LightWork> lights) noexcept {
@@ -292,8 +285,8 @@ TexelRect PoolGrid::rectangle(std::uint32_t square, int level) const noexcept {
   const std::uint32_t cell = square >> (2 * top), inside = square & ((1u << (2 * top)) - 1u);
   const int column = static_cast<int>(cell) % columns, row = static_cast<int>(cell) / columns;
   const int side = least << level, cell_side = least << top;
-  return {column * cell_side + static_cast<int>(even_bits(inside)) * least,
-          row * cell_side + static_cast<int>(even_bits(inside >> 1)) * least, side, side};
+  return {column * cell_side + static_cast<int>(gathered_bits(inside)) * least,
+          row * cell_side + static_cast<int>(gathered_bits(inside >> 1)) * least, side, side};
 }
 
 void TakenRuns::add(std::uint32_t begin, std::uint32_t length) noexcept {

@@ -12,6 +12,7 @@
 #include <algorithm>
 
 #include "geometry/usable.hpp"
+#include "geometry/z_order.hpp"
 
 namespace gnomon {
 namespace {
@@ -25,24 +26,6 @@ constexpr int kCellBits = 24;
 // Share of a sample's pixels that a page as wide as its square does not hold, beside those that the places of
 // samples account for: other surfaces lie between the points. 0.125 to 0.5 give about the same pictures.
 constexpr double kBeside = 0.25;
-
-/// Puts a 0 before every bit.
-std::uint64_t spread(std::uint64_t v) noexcept {
-  v = (v | v << 16) & 0x0000FFFF0000FFFFu;
-  v = (v | v << 8) & 0x00FF00FF00FF00FFu;
-  v = (v | v << 4) & 0x0F0F0F0F0F0F0F0Fu;
-  v = (v | v << 2) & 0x3333333333333333u;
-  return (v | v << 1) & 0x5555555555555555u;
-}
-/// Takes every other bit away.
-std::uint64_t gathered(std::uint64_t v) noexcept {
-  v &= 0x5555555555555555u;
-  v = (v | v >> 1) & 0x3333333333333333u;
-  v = (v | v >> 2) & 0x0F0F0F0F0F0F0F0Fu;
-  v = (v | v >> 4) & 0x00FF00FF00FF00FFu;
-  v = (v | v >> 8) & 0x0000FFFF0000FFFFu;
-  return (v | v >> 16) & 0x00000000FFFFFFFFu;
-}
 
 /// Cell of a depth where the first cell of the root begins. So far off that products overflow, places are
 /// rounding.
@@ -133,7 +116,7 @@ void PageTree::add_sample(const PagePoint& point, const glm::dvec2& place, bool 
   // The deepest level does not suffice for more than that, however much.
   const double most = 2.0 * least_ / root_shrink_[at(deepest_)];
   c_.memory.samples[c_.sample_count++] = {
-      std::uint64_t{base} << (2 * kCellBits) | spread(row) << 1 | spread(column),
+      std::uint64_t{base} << (2 * kCellBits) | spread_bits(row) << 1 | spread_bits(column),
       static_cast<float>(min_of(std::sqrt(c_.excess(point)), most)), edge, 0};
 }
 
@@ -262,8 +245,8 @@ void PageTree::open_page(const Range& range, int depth) noexcept {
   for (std::size_t i = range.first; i < range.last; ++i) ++points[samples_[i].at_edge];
   const std::size_t all = points[0] * one_of_[0] + (points[1] + 1) / 2 * one_of_[1];
   if (pages_ < c_.memory.pages.size())
-    c_.memory.pages[pages_] = {of, cell(gathered(place), root.first_x, grid.first_x, grid.columns),
-                               cell(gathered(place >> 1), root.first_y, grid.first_y, grid.rows), 0,
+    c_.memory.pages[pages_] = {of, cell(gathered_bits(place), root.first_x, grid.first_x, grid.columns),
+                               cell(gathered_bits(place >> 1), root.first_y, grid.first_y, grid.rows), 0,
                                static_cast<std::uint32_t>(all)};
   ++pages_;
 }
