@@ -101,8 +101,9 @@ struct WarpInput {
   /// Points of visible surfaces inside the body, along the light frame's axes, each for an equal share of the
   /// image: what Objective::picture counts. Not empty where `objective` is that.
   std::span<const glm::dvec3> seen = {};
-  /// Where boxes of receivers are: the body holds air between them. Objective::p95 counts points in them, and
-  /// max compares other warps there. nullptr: the body is all that is known.
+  /// Where boxes of receivers are, for the searches of core: the body holds air between them. They count
+  /// points in boxes by Objective::p95, and compare other warps there by max. nullptr: only the body is
+  /// known.
   const HeldDepths* held = nullptr;
   /// Where a search may begin, in place of at everything; nullptr: nothing is known.
   const WarpStart* start = nullptr;

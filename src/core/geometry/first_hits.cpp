@@ -1,4 +1,4 @@
-// Where do surfaces lie that the camera sees, as far as boxes tell? And where on its rays are boxes at all?
+// What do the rays of a fan through the image meet, as far as boxes tell: the nearest, and all on their way?
 // Based on: Kay, Kajiya, "Ray Tracing Complex Scenes", 1986 (slabs). Taking their hits as points that a map's
 // error is counted at is this project's.
 #include "geometry/first_hits.hpp"

@@ -1,4 +1,4 @@
-// Where do surfaces lie that the camera sees, as far as boxes tell? And where on its rays are boxes at all?
+// What do the rays of a fan through the image meet, as far as boxes tell: the nearest, and all on their way?
 #pragma once
 
 #include <array>
