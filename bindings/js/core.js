@@ -9,7 +9,7 @@ const OMISSION_KINDS = ['cascadeWithoutReceiver', 'cascadeWithoutCaster', 'depth
   'viewWithoutReceiver', 'pagesCoarsened', 'pointsLeftCoarser', 'pointsBeyondLevels', 'shapeWithoutGain',
   'planeWithoutReceiver', 'planeWithoutCaster', 'cascadeOnPlanes', 'facesLessDivided', 'receiverNearLight'];
 const IGNORED = ['splitPartition', 'splitScheme', 'splitOverlap', 'depths', 'resolutionTexelBudget', 'history', 'splitSelection',
-  'cadenceFrames', 'points', 'warpShape', 'warpPlanes'];
+  'cadenceFrames', 'points', 'warpShape', 'warpPlanes', 'share', 'reachTexels'];
 const EVENT_KINDS = ['mapAppeared', 'mapRefitted', 'densityJump'];
 const REUSE_KINDS = ['none', 'identical', 'scrolled'];
 const POINT_STATUS = ['ok', 'outside', 'facesAway', 'undetermined'];

@@ -28,6 +28,9 @@ struct PagePolicy {
   bool octaves;
   /// Points that a finer page holds need no page of their own level.
   bool shares_finer;
+  /// The policy chooses pages for all points together: PageOptions::share and reach_texels have no effect,
+  /// and PagePlan::omitted says so.
+  bool chooses = false;
   /// PageFeedback bits that the policy reads.
   std::uint8_t feedback;
   /// Sets the level of every point; internal.
@@ -97,7 +100,7 @@ struct PageOptions {
   /// exceeds.
   double target_m = 1.0;
   /// Share of the visible points that must meet the target, in (0, 1]. Below 1, pages that few points need
-  /// are left to twice the texel size, but by `picture`. That ends where the pool is full: all have a page.
+  /// are left to a level of twice the texel size. That ends where the pool is full: every point has a page.
   double share = 1.0;
   /// Steps in which texels halve, 1..4. More steps waste fewer texels, and take more look-ups.
   int levels_per_octave = 3;
@@ -107,7 +110,7 @@ struct PageOptions {
   /// Largest side of a level, texels, page_texels..kMaxVirtualTexels: the deepest level is the last below.
   int virtual_texels = 1 << 22;
   /// Each point requests pages this many texels of its level round it, 0..page_texels: for points read at a
-  /// stride, and cameras that move. Policy `picture` does not read it: it opens pages round edges by itself.
+  /// stride, and cameras that move.
   double reach_texels = 0.0;
   /// Resident pages of the coarsest level at every place, so that surfaces without a visible point of their
   /// own keep a shadow. At most four pages for each map of the base.
@@ -146,9 +149,10 @@ struct PagePlan {
   std::array<PagePlaces, 6> places{};    ///< of the base, by ShadowMap::cascade of a level
   std::span<const Page> pages;           ///< resident pages, coarsest level first
   std::span<const std::uint32_t> table;  ///< hash table over the pages, see page_at; shaders read it as it is
-  double target_m = 0.0;     ///< error that the levels were chosen for: larger than requested where the pool
-                             ///< is too small. Policy `picture` then has it in pages that weigh as much as the mean
-  std::uint64_t points = 0;  ///< visible points that pages serve
+  double target_m =
+      0.0;  ///< error that the levels were chosen for: larger than requested where the pool
+            ///< is too small. Policy `picture` then has it in pages that weigh as much as the mean
+  std::uint64_t points = 0;                   ///< visible points that pages serve
   std::uint64_t points_outside = 0;           ///< that lie beside all receivers or the light's range: lit
   std::uint64_t points_coarser = 0;           ///< left to a coarser level by PageOptions::share
   std::uint64_t points_capped = 0;            ///< that the deepest level does not suffice for

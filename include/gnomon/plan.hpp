@@ -68,7 +68,9 @@ enum class IgnoredOption : std::uint8_t {
   cadence,         ///< cadence: needs a history and cascades of a fixed number and size
   visible_points,  ///< the visible points: a local light's maps, kept or stable maps do not follow them
   shape,           ///< warp.shape: see there for the maps that have linear texels whatever it says
-  planes,  ///< warp.planes: needs a directional light, one view, depths as partition, tight or rotated
+  planes,      ///< warp.planes: needs a directional light, one view, depths as partition, tight or rotated
+  page_share,  ///< PageOptions::share: see PagePolicy::chooses
+  page_reach,  ///< PageOptions::reach_texels: the same
 };
 /// One entry of ShadowPlan::omitted.
 struct Omission {

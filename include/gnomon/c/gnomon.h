@@ -443,7 +443,9 @@ enum {
   GNOMON_IGNORED_CADENCE = 7,         ///< cadence_frames
   GNOMON_IGNORED_VISIBLE_POINTS = 8,  ///< gnomon_view::points
   GNOMON_IGNORED_SHAPE = 9,           ///< warp_shape
-  GNOMON_IGNORED_PLANES = 10          ///< warp_planes
+  GNOMON_IGNORED_PLANES = 10,         ///< warp_planes
+  GNOMON_IGNORED_PAGE_SHARE = 11,     ///< gnomon_page_options::share
+  GNOMON_IGNORED_PAGE_REACH = 12      ///< gnomon_page_options::reach_texels
 };
 /// Something that this scene did not need, or an option that did not hold. Its size is fixed.
 typedef struct gnomon_omission {

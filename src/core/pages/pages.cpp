@@ -109,7 +109,7 @@ bool fits(PageContext& c, double factor, PagePlan& plan) noexcept {
   c.chosen = 0;
   c.options.policy->assign(c);
   plan.points_coarser = 0;
-  if (c.options.share == 1.0) return open_pages(c);
+  if (c.options.share == 1.0 || c.options.policy->chooses) return open_pages(c);
   LeftToCoarser left = leave_to_coarser(c, kShareRounds);
   if (!left.open && left.rounds >= 0) {
     // The rounds before the one that filled the pool, from the same levels: their pages fit.
@@ -234,6 +234,12 @@ void report(const PageContext& c, PagePlan& plan) noexcept {
     const double excess = c.excess(point) / plan.target_m;
     if (!(excess * c.shrink[static_cast<std::size_t>(c.deepest)] <= 1.0)) ++plan.points_capped;
   }
+  const auto ignored = [&](bool given, IgnoredOption option) {
+    if (given && c.options.policy->chooses)
+      omit(plan, {OmissionKind::option_ignored, -1, static_cast<double>(option), 0.0, 0});
+  };
+  ignored(c.options.share < 1.0, IgnoredOption::page_share);
+  ignored(c.options.reach_texels > 0.0, IgnoredOption::page_reach);
   if (plan.target_m > c.options.target_m)
     omit(plan, {OmissionKind::pages_coarsened, -1, c.options.target_m, plan.target_m, 0});
   if (plan.points_coarser > 0)

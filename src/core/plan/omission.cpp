@@ -58,7 +58,10 @@ void describe_ignored(const Omission& o, OmissionText& text) noexcept {
        "texels; paraboloid a local light"},
       {"option warp.planes",
        "it needs a directional light, one view, partition view_depth, and a tight or rotated fit without a "
-       "texel budget"}};
+       "texel budget"},
+      {"option pages.share",
+       "this policy weighs all points together, and leaves none to twice the texel size"},
+      {"option pages.reach_texels", "this policy opens pages round shadow edges by itself"}};
   const auto at = static_cast<std::size_t>(o.a);
   if (at >= std::size(kEntries)) return;
   std::snprintf(text.what.data(), text.what.size(), "%s", kEntries[at].what);
@@ -138,8 +141,8 @@ OmissionText describe(const Omission& o) noexcept {
       break;
     case OmissionKind::pages_coarsened:
       what("levels of pages");
-      why("the pool holds too few pages for an error of %.3g; levels are as coarse as one of %.3g needs",
-          o.a, o.b);
+      why("the pool holds too few pages for an error of %.3g; levels are as coarse as one of %.3g needs", o.a,
+          o.b);
       break;
     case OmissionKind::points_left_coarser:
       what("pages that few points need");

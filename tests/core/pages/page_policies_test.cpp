@@ -249,6 +249,35 @@ TEST(Pages, tiled_gives_more_of_the_pool_to_tiles_with_depth_edges) {
   EXPECT_LT(texel(street.plan(memory), 3900), before);
 }
 
+TEST(Pages, options_that_a_policy_has_no_use_for_change_nothing_and_are_named) {
+  for (const PagePolicy* policy : all_page_policies()) {
+    Street street;
+    street.options.policy = policy;
+    street.options.capacity = 200;
+    street.feedback.assign(street.points.size(), 0);
+    for (std::size_t i = 0; i < street.points.size(); i += 5) street.feedback[i] = kShadowEdge | kDepthEdge;
+    std::vector<std::byte> memory(page_memory(4096, 1 << 14)), other(page_memory(4096, 1 << 14));
+    const PagePlan plain = street.plan(memory);
+    street.options.share = 0.6;
+    street.options.reach_texels = 40.0;
+    const PagePlan plan = street.plan(other);
+    const auto names = [&](IgnoredOption option) {
+      const std::span<const Omission> omitted = plan.omitted();
+      return std::any_of(omitted.begin(), omitted.end(), [&](const Omission& o) {
+        return o.kind == OmissionKind::option_ignored && o.a == static_cast<double>(option);
+      });
+    };
+    EXPECT_EQ(names(IgnoredOption::page_share), policy->chooses) << policy->name;
+    EXPECT_EQ(names(IgnoredOption::page_reach), policy->chooses) << policy->name;
+    const auto same = [](const Page& a, const Page& b) {
+      return a.level == b.level && a.column == b.column && a.row == b.row;
+    };
+    const bool equal =
+        std::equal(plain.pages.begin(), plain.pages.end(), plan.pages.begin(), plan.pages.end(), same);
+    EXPECT_EQ(equal && plain.target_m == plan.target_m, policy->chooses) << policy->name;
+  }
+}
+
 TEST(Pages, names_find_their_policies) {
   EXPECT_FALSE(all_page_policies().empty());
   for (const PagePolicy* policy : all_page_policies()) {

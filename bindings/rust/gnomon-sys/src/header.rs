@@ -138,6 +138,10 @@ pub const GNOMON_IGNORED_VISIBLE_POINTS: i32 = 8;
 pub const GNOMON_IGNORED_SHAPE: i32 = 9;
 /// warp_planes
 pub const GNOMON_IGNORED_PLANES: i32 = 10;
+/// gnomon_page_options::share
+pub const GNOMON_IGNORED_PAGE_SHARE: i32 = 11;
+/// gnomon_page_options::reach_texels
+pub const GNOMON_IGNORED_PAGE_REACH: i32 = 12;
 /// nothing was remembered of this cascade
 pub const GNOMON_MAP_APPEARED: i32 = 0;
 /// fit warped_stable: the view left the map

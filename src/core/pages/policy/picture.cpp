@@ -26,6 +26,7 @@ const PagePolicy picture{
     .summary = "what lessens the pixels that are expected to be wrong most, for each page",
     .octaves = false,
     .shares_finer = true,
+    .chooses = true,
     .feedback = kShadowEdge,
     .assign = assign};
 
