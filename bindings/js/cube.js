@@ -40,12 +40,15 @@ function cubeOf(rows) {
 /** Rows of a face of the cube: what they make of a direction is across, along and out of the face. */
 export const faceOf = ({ shape }, face) => FACES[face].map((row) => times(row, shape));
 
-/** The cone around a face: axis, and half angle in radians. */
-export function coneOf({ direction }, face) {
+/**
+ * A cone that holds a face: axis, and half angle in radians. About the normal of the plane through the face's corners the angle is
+ * below a right one, however the cube is sheared. Wider cones are not convex: one with all corners may miss what is between them.
+ */
+export function coneOf(cube, face) {
   const [across, along, out] = FACES[face];
-  const corners = SIDES.map(([s, t]) => direction([0, 1, 2].map((k) => out[k] + s * across[k] + t * along[k]))).map((v) => v.map((value) => value / length(v)));
-  const axis = [0, 1, 2].map((k) => corners.reduce((sum, v) => sum + v[k], 0));
-  const angle = Math.max(...corners.map((v) => Math.acos(Math.min(1, dot(v, axis) / length(axis)))));
+  const axis = faceOf(cube, face)[2];
+  const corners = SIDES.map(([s, t]) => cube.direction([0, 1, 2].map((k) => out[k] + s * across[k] + t * along[k])));
+  const angle = Math.max(...corners.map((v) => Math.acos(Math.min(1, dot(v, axis) / (length(v) * length(axis))))));
   return { axis, angle };
 }
 

@@ -12,6 +12,7 @@ const { SunLight } = await within('three/examples/jsm/lights/SunLight.js');
 const { load } = await within('gnomon/index.js');
 const { GnomonCSM, GnomonPointShadow, GnomonSpotShadow, GnomonSunShadow, ShadowBounds, biasOf, cameraOf } = await within('gnomon/three.js');
 const { turnGrids } = await within('gnomon/adapter.js');
+const { CubeSearch, FACES, coneOf } = await within('gnomon/cube.js');
 const gnomon = await load();
 
 function scene({ casts = true, material = new THREE.MeshLambertMaterial() } = {}) {
@@ -330,6 +331,27 @@ test('the cube of a point light is finer in view than the one of three, which a 
   console.log(`planning one: ${first.toFixed(0)} ms first, ${(process.cpuUsage(start).user / 100e3).toFixed(1)} ms then; ${shapes.map(({ size }) => size)} cubes in 50 frames`);
   assert.ok(shapes[0].size <= 5 && shapes[1].size >= 2 * shapes[0].size);
   for (const one of [own, bulb, tight]) one.dispose();
+});
+
+test('the cone of a face holds all of it, however the cube is sheared', () => {
+  let most = 0;
+  for (let k = 1; k <= 20; ++k) {
+    const wanted = Array.from({ length: 9 }, (_, i) => Math.sin(7.3 * k + 2.1 * i * k));
+    const search = new CubeSearch(1);
+    search.follow(({ shape }) => shape.flat().reduce((sum, value, i) => sum + (value - wanted[i]) ** 2, 0));
+    FACES.forEach(([across, along, out], face) => {
+      const { axis, angle } = coneOf(search.cube, face);
+      most = Math.max(most, angle);
+      for (let at = 0; at < 81; ++at) {
+        const [s, t] = [(at % 9) / 4 - 1, Math.floor(at / 9) / 4 - 1];
+        const v = search.cube.direction([0, 1, 2].map((i) => out[i] + s * across[i] + t * along[i]));
+        const off = new THREE.Vector3(...v).angleTo(new THREE.Vector3(...axis));
+        assert.ok(off < angle + 1e-6, `cube ${k}, face ${face}: ${off} of ${angle}`);
+      }
+    });
+  }
+  // Sheared far enough that a cone about the middle of the corners would not hold its face.
+  assert.ok(most > 1.4 && most < 0.5 * Math.PI, `${most}`);
 });
 
 test('faces of a point light draw nothing where nobody sees a shadow', () => {
