@@ -72,19 +72,21 @@ function changed({ shape }, k, step) {
 
 /** A search that goes on from frame to frame: a few trials in each, by shears and scales that become smaller. */
 export class CubeSearch {
-  /** `keep`: a cube is left for another of less than this share of its error; 0: never. */
-  constructor(keep) {
-    this.keep = keep;
+  constructor() {
+    this.reset();
+  }
+  /** The cube as engines have it, and a search that begins anew. */
+  reset() {
     this.cube = cubeOf([[1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+    this.searched = false;
     this.restart(this.cube);
   }
   restart(trial) {
     Object.assign(this, { trial, step: FIRST_STEP, next: 0, without: 0 });
   }
 
-  /** `errorOf(cube)`: what is to be least. */
-  follow(errorOf) {
-    if (this.keep === 0) return;
+  /** `errorOf(cube)`: what is to be least. `keep`: the cube is left for another of less than this share of its error. */
+  follow(errorOf, keep = 1) {
     const own = errorOf(this.cube);
     if (!(own > 0)) return;
     let least = this.trial === this.cube ? own : errorOf(this.trial);
@@ -103,6 +105,6 @@ export class CubeSearch {
       }
     }
     this.searched = true;
-    if (least < this.keep * own) this.cube = this.trial;
+    if (least < keep * own) this.cube = this.trial;
   }
 }

@@ -96,7 +96,7 @@ function viewOf(scene) {
   }
   return views.get(scene);
 }
-// Of the error that a cube has, the share at which another takes its place: then all of its texels move.
+// By fit: of the error that a cube has, the share at which another takes its place. Then all of its texels move.
 const KEPT = { stable: 0, warped_stable: 0.8, rotated: 1, tight: 1 };
 // Rays to visible points that the error is measured at.
 const GRID = { columns: 16, rows: 9 };
@@ -112,9 +112,7 @@ export class GnomonPointShadow extends PointLightShadow {
     super();
     this.isGnomonPointShadow = true;
     begin(this, gnomon, scene, options);
-    const kept = KEPT[this.options.fit];
-    if (kept === undefined) throw new GnomonError('plan_options.fit');
-    this.search = new CubeSearch(kept);
+    this.search = new CubeSearch();
     this.view = viewOf(scene);
     this.drawn = this.view.draws;
     this.biasTexels = { constant: 0.15, slope: 0.5 };  // until there is a plan
@@ -154,12 +152,15 @@ export class GnomonPointShadow extends PointLightShadow {
     let seen = FACES.map(() => true), status = 'ok';
     if (viewCamera !== undefined) {
       const { gnomon, bounds, options, resolution } = this;
+      const keep = KEPT[options.fit];
+      if (keep === undefined) throw new GnomonError('plan_options.fit');
       bounds.follow();
       const { casters, receivers } = bounds;
       const depth = -place.copy(camera.position).applyMatrix4(viewCamera.matrixWorldInverse).z;
       // Nothing is lit beyond.
       const view = { camera: cameraOf(gnomon, viewCamera, resolution, depth + camera.far), receivers };
-      search.follow((cube) => gnomon.measure({ maps: maps(cube), selection: 'first_holding' }, { ...view, grid: GRID }).mean);
+      if (keep === 0) search.reset();
+      else search.follow((cube) => gnomon.measure({ maps: maps(cube), selection: 'first_holding' }, { ...view, grid: GRID }).mean, keep);
       const plans = FACES.map((_, face) => {
         const { axis, angle } = coneOf(search.cube, face);
         const light = { kind: 'spot', position, direction: axis, outerRadians: angle, range: camera.far };

@@ -253,7 +253,6 @@ test('what load() did not return is refused by name', () => {
   for (const make of [() => new ShadowBounds({}, scene()), () => new GnomonSunShadow(undefined, scene()), () => new GnomonSpotShadow(null, scene()), () => new GnomonPointShadow({}, scene())])
     assert.throws(make, { name: 'GnomonError', field: 'gnomon' });
   assert.throws(() => new GnomonPointShadow(gnomon, new THREE.Group()), { field: 'scene' });
-  assert.throws(() => new GnomonPointShadow(gnomon, scene(), { options: { fit: 'loose' } }), { field: 'plan_options.fit' });
 });
 
 function bulbOf(from, options) {
@@ -333,11 +332,29 @@ test('the cube of a point light is finer in view than the one of three, which a 
   for (const one of [own, bulb, tight]) one.dispose();
 });
 
+test('the fit of a point light may change from frame to frame', () => {
+  const bulb = bulbOf(scene(), { options: { fit: 'stable' } });
+  const { shadow } = bulb;
+  const shapeBy = (fit) => {
+    shadow.options.fit = fit;
+    shadow.updateMatrices(bulb, camera());
+    return shadow.matrix.clone().setPosition(0, 0, 0);
+  };
+  const own = new THREE.Matrix4();
+  assert.ok(shapeBy('stable').equals(own));
+  const stretched = shapeBy('tight');
+  assert.ok(!stretched.equals(own));
+  assert.ok(shapeBy('stable').equals(own));
+  assert.ok(shapeBy('tight').equals(stretched), 'the first search is made again');
+  assert.throws(() => shapeBy('loose'), { field: 'plan_options.fit' });
+  bulb.dispose();
+});
+
 test('the cone of a face holds all of it, however the cube is sheared', () => {
   let most = 0;
   for (let k = 1; k <= 20; ++k) {
     const wanted = Array.from({ length: 9 }, (_, i) => Math.sin(7.3 * k + 2.1 * i * k));
-    const search = new CubeSearch(1);
+    const search = new CubeSearch();
     search.follow(({ shape }) => shape.flat().reduce((sum, value, i) => sum + (value - wanted[i]) ** 2, 0));
     FACES.forEach(([across, along, out], face) => {
       const { axis, angle } = coneOf(search.cube, face);
