@@ -64,6 +64,13 @@ export function turnGrids(gnomon, plan, camera) {
   }
 }
 
+/** A plan for an engine whose maps may have any place: those of fit stable are turned. */
+export function planTurned(gnomon, input) {
+  const plan = gnomon.plan(input);
+  if (input.options.fit === 'stable') turnGrids(gnomon, plan, input.camera);
+  return plan;
+}
+
 /** A set of boxes that is made again when their number changes, and refitted when one of them moved. */
 export class FollowedBoxes {
   constructor(gnomon) {

@@ -3,7 +3,7 @@
 import { CascadedShadowGenerator } from '@babylonjs/core/Lights/Shadows/cascadedShadowGenerator.js';
 import { ShadowGenerator } from '@babylonjs/core/Lights/Shadows/shadowGenerator.js';
 import { Matrix } from '@babylonjs/core/Maths/math.vector.js';
-import { FollowedBounds, cameraUpTo, loaded, turnGrids, withDefaults } from './adapter.js';
+import { FollowedBounds, cameraUpTo, loaded, planTurned, withDefaults } from './adapter.js';
 import { GnomonError } from './memory.js';
 
 const DIRECTIONAL = 1;
@@ -119,9 +119,8 @@ class Planner {
     // Other filters than PCF read depths that are not divided by w.
     const warps = generator.filter === ShadowGenerator.FILTER_PCF;
     const { width, height } = generator.getShadowMap().getSize();
-    const eye = cameraOf(gnomon, camera, far);
-    this.plan = gnomon.plan({
-      camera: eye,
+    this.plan = planTurned(gnomon, {
+      camera: cameraOf(gnomon, camera, far),
       light: { direction: generator.light.getShadowDirection(0).asArray() },
       casters: bounds.casters,
       receivers: bounds.receivers,
@@ -137,7 +136,6 @@ class Planner {
       },
       history,
     });
-    if (this.options.fit === 'stable') turnGrids(gnomon, this.plan, eye);
     this.drawn = this.plan.maps.map((map) => Array.from(gnomon.cull(map, bounds.casters), (i) => bounds.meshes[i]));
     return this.plan.maps;
   }

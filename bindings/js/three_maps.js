@@ -1,6 +1,6 @@
 // What do the shadows of three.js share? Boxes of a scene, cameras, biases, and the plan of a light.
 import { BackSide, Box3, FrontSide, Matrix4, WebGPUCoordinateSystem } from 'three';
-import { FollowedBounds, cameraUpTo, loaded, turnGrids, withDefaults } from './adapter.js';
+import { FollowedBounds, cameraUpTo, loaded, planTurned, withDefaults } from './adapter.js';
 
 /**
  * Boxes of the meshes below an object that cast and receive shadows. follow() takes their places, each frame; update() gathers them
@@ -130,10 +130,8 @@ export function begin(shadow, gnomon, scene, { options = {}, resolution = [1920,
 export function planFor({ gnomon, bounds, history, options, resolution }, light, camera, far, more) {
   bounds.follow();
   const { casters, receivers } = bounds;
-  const eye = cameraOf(gnomon, camera, resolution, far);
-  const plan = gnomon.plan({ camera: eye, light, casters, receivers, options: { ...options, ...more }, history });
-  if (options.fit === 'stable') turnGrids(gnomon, plan, eye);
-  return plan;
+  const view = { camera: cameraOf(gnomon, camera, resolution, far), casters, receivers };
+  return planTurned(gnomon, { ...view, light, options: { ...options, ...more }, history });
 }
 export function end({ history, bounds, ownsBounds }) {
   history.dispose();
