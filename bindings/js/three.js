@@ -21,6 +21,7 @@ export class GnomonSunShadow extends SunLightShadow {
     super();
     this.isGnomonSunShadow = true;
     begin(this, gnomon, scene, options);
+    this.history = gnomon.history();
     this.options = { splitOverlap: 0.1, ...this.options };
   }
 
@@ -70,6 +71,7 @@ export class GnomonCSM extends CSM {
   constructor(gnomon, { options, resolution, bounds, ...data }) {
     super(data);
     begin(this, gnomon, data.parent, { options, resolution, bounds });
+    this.history = gnomon.history();
     for (const { shadow } of this.lights) {
       shadow.camera = new OrthographicCamera();
       // The matrices are set by update(). three computes the projection again when it makes the texture.

@@ -26,6 +26,7 @@ export class GnomonSpotShadow extends SpotLightShadow {
     super();
     this.isGnomonSpotShadow = true;
     begin(this, gnomon, scene, options);
+    this.history = gnomon.history();
     this.fitted = new PerspectiveCamera();
   }
 

@@ -122,7 +122,6 @@ export function begin(shadow, gnomon, scene, { options = {}, resolution = [1920,
   shadow.gnomon = loaded(gnomon);
   shadow.bounds = bounds ?? new ShadowBounds(gnomon, scene);
   shadow.ownsBounds = bounds === undefined;
-  shadow.history = gnomon.history();
   shadow.options = withDefaults(options);
   shadow.resolution = resolution;
   shadow.plan = null;
@@ -134,6 +133,6 @@ export function planFor({ gnomon, bounds, history, options, resolution }, light,
   return planTurned(gnomon, { ...view, light, options: { ...options, ...more }, history });
 }
 export function end({ history, bounds, ownsBounds }) {
-  history.dispose();
+  history?.dispose();
   if (ownsBounds) bounds.dispose();
 }
