@@ -64,7 +64,7 @@ export function turnGrids(gnomon, plan, camera) {
   }
 }
 
-/** A plan for an engine whose maps may have any place: those of fit stable are turned. */
+/** A plan whose grids of fit stable are turned. */
 export function planTurned(gnomon, input) {
   const plan = gnomon.plan(input);
   if (input.options.fit === 'stable') turnGrids(gnomon, plan, input.camera);

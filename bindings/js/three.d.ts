@@ -57,17 +57,25 @@ export class GnomonSpotShadow extends LightShadow<PerspectiveCamera> {
   readonly plan: PlanResult | null;
 }
 
+/** Options of a point light's shadow. */
+export interface GnomonPointShadowOptions extends Omit<GnomonShadowOptions, 'options'> {
+  /**
+   * Default: fit warped_stable, which keeps a cube until another has 0.8 of its error. `tight` and `rotated` take each better
+   * cube, and `stable` keeps three's own.
+   */
+  options?: Pick<PlanOptions, 'fit' | 'biasConstantTexels' | 'biasSlopeTexels'>;
+}
+
 /**
- * `lamp.shadow = new GnomonPointShadow(gnomon, scene)`, for three's PointLight. Its six maps share one matrix of directions, which
- * turns and stretches the cube towards what is in view. Of `options`, `fit` and the biases count: `stable` keeps three's own cube,
- * `warped_stable` a cube until another has 0.8 of its error, and the others take each better one.
+ * `bulb.shadow = new GnomonPointShadow(gnomon, scene)`, for three's PointLight. Its six maps share one matrix of directions, which
+ * turns and stretches the cube towards the visible points.
  */
 export class GnomonPointShadow extends LightShadow<PerspectiveCamera> {
-  constructor(gnomon: Gnomon, scene: Scene, options?: GnomonShadowOptions);
+  constructor(gnomon: Gnomon, scene: Scene, options?: GnomonPointShadowOptions);
   readonly isGnomonPointShadow: true;
   readonly isPointLightShadow: true;
   readonly bounds: ShadowBounds;
-  options: PlanOptions;
+  options: NonNullable<GnomonPointShadowOptions['options']>;
   /** Faces of the last frame that hold visible shadows; null before it. For measure(), without culling planes. */
   readonly plan: Plan | null;
 }

@@ -103,12 +103,12 @@ const KEPT = { stable: 0, warped_stable: 0.8, rotated: 1, tight: 1 };
 const GRID = { columns: 16, rows: 9 };
 
 /**
- * The shadow of a PointLight: `lamp.shadow = new GnomonPointShadow(gnomon, scene)`. three looks up by the direction alone, through
+ * The shadow of a PointLight: `bulb.shadow = new GnomonPointShadow(gnomon, scene)`. three looks up by the direction alone, through
  * one matrix: gnomon turns and stretches the cube by it, towards what is in view. Faces without visible shadows draw nothing.
  * `camera.near` becomes that of the stretched cube.
  */
 export class GnomonPointShadow extends PointLightShadow {
-  /** options, resolution, bounds: as those of GnomonSunShadow. */
+  /** resolution, bounds: as those of GnomonSunShadow; options: fit, biasConstantTexels and biasSlopeTexels of the plan. */
   constructor(gnomon, scene, options = {}) {
     super();
     this.isGnomonPointShadow = true;
