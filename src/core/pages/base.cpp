@@ -22,8 +22,6 @@
 namespace gnomon {
 namespace {
 
-// Texels of the base's record: pages have their own sizes, so that any number serves.
-constexpr int kBaseTexels = 1024;
 // Surfaces on the edge of the base are rounded to either side of it; the side of a page that holds all of it.
 constexpr double kEdgeRoom = 1e-6, kWholeSide = 1.0 + 4.0 * kEdgeRoom;
 
@@ -325,14 +323,13 @@ double aspect_of(PageContext& c, std::uint32_t base) noexcept {
 
 }  // namespace
 
-PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext& c, PagePlan& out) noexcept {
-  const PlanOptions& options = c.options.plan;
-  const bool stable = options.fit == Fit::stable || out.policy->octaves;
-  const double border = std::ceil(static_cast<double>(kBaseTexels) * out.border_texels / out.page_texels);
-  const ResolvedPages base_of = resolve_pages(options, stable, kBaseTexels, border);
+PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const ResolvedPages& how, PageContext& c,
+                     PagePlan& out) noexcept {
+  const ClipSpace clip_space = how.base.clip_space;
+  const bool stable = how.base.fit == Fit::stable;
   // Where the levels will be written: stacks may be small.
   const ShadowPlan& plan =
-      *::new (c.memory.levels.data()) ShadowPlan(make_plan(c.camera, light, bounds, base_of.options));
+      *::new (c.memory.levels.data()) ShadowPlan(make_plan(c.camera, light, bounds, how.base));
   out.invalid_field = plan.invalid_field;
   out.origin_world = plan.origin_world;
   out.light_direction = plan.light_direction;
@@ -342,7 +339,7 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext&
     if (about_maps || omission.kind == OmissionKind::depth_near_light)
       out.omission[static_cast<std::size_t>(out.omission_count++)] = omission;
   }
-  for (const Omission& omission : base_of.ignored.entries())
+  for (const Omission& omission : how.ignored.entries())
     out.omission[static_cast<std::size_t>(out.omission_count++)] = omission;
   if (plan.status != PlanStatus::ok) return plan.status;
   c.base_count = plan.map_count;
@@ -353,9 +350,9 @@ PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext&
     base.fixed = stable;
     if (stable && std::holds_alternative<DirectionalLight>(light)) {
       anchor_in_world(plan.light_direction, base);
-      deepen_to_bounds(bounds, plan.light_direction, options.clip_space, base);
+      deepen_to_bounds(bounds, plan.light_direction, clip_space, base);
     } else if (stable) {
-      anchor_in_light(light, plan.light_direction, options.clip_space, base);
+      anchor_in_light(light, plan.light_direction, clip_space, base);
     } else {
       anchor_on_map(base);
     }

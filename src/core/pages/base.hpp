@@ -51,6 +51,7 @@ static_assert(kLadders * sizeof(PageGrid) + kPageSamples * sizeof(PageSample) + 
               kMaxPageLevels * sizeof(ShadowMap));
 
 struct PageContext;
+struct ResolvedPages;
 
 /// The caller's memory, in parts.
 struct PageMemory {
@@ -174,8 +175,8 @@ struct PageContext {
 };
 
 /// Plans the base maps; returns the status of that plan, and writes what it says besides pages to `out`.
-[[nodiscard]] PlanStatus plan_base(const Light& light, const SceneBounds& bounds, PageContext& context,
-                                   PagePlan& out) noexcept;
+[[nodiscard]] PlanStatus plan_base(const Light& light, const SceneBounds& bounds, const ResolvedPages& how,
+                                   PageContext& context, PagePlan& out) noexcept;
 /// Fills memory.points with the visible points, or with samples of the boxes.
 void add_points(const SceneBounds& bounds, PageContext& context) noexcept;
 /// Gives the sides of pages the aspect that wastes the fewest texels, and a size within a step of the ladder

@@ -99,8 +99,7 @@ class Opening {
     return count > 0;
   }
   bool open_level(std::uint32_t level) noexcept {
-    const double asked = c_.options.policy->chooses ? 0.0 : c_.options.reach_texels;
-    const double reach = max_of(kEdge, asked / c_.options.page_texels);
+    const double reach = max_of(kEdge, c_.options.reach_texels / c_.options.page_texels);
     const bool shares = c_.options.policy->shares_finer;
     for (std::uint32_t i = begin_[level]; i < begin_[level + 1]; ++i) {
       const PagePoint& point = c_.memory.points[c_.memory.points[i].order];

@@ -13,6 +13,7 @@
 #include "pages/fill.hpp"
 #include "plan/input.hpp"
 #include "plan/memory.hpp"
+#include "resolve/resolve.hpp"
 
 namespace gnomon {
 namespace {
@@ -109,7 +110,7 @@ bool fits(PageContext& c, double factor, PagePlan& plan) noexcept {
   c.chosen = 0;
   c.options.policy->assign(c);
   plan.points_coarser = 0;
-  if (c.options.share == 1.0 || c.options.policy->chooses) return open_pages(c);
+  if (c.options.share == 1.0) return open_pages(c);
   LeftToCoarser left = leave_to_coarser(c, kShareRounds);
   if (!left.open && left.rounds >= 0) {
     // The rounds before the one that filled the pool, from the same levels: their pages fit.
@@ -234,12 +235,6 @@ void report(const PageContext& c, PagePlan& plan) noexcept {
     const double excess = c.excess(point) / plan.target_m;
     if (!(excess * c.shrink[static_cast<std::size_t>(c.deepest)] <= 1.0)) ++plan.points_capped;
   }
-  const auto ignored = [&](bool given, IgnoredOption option) {
-    if (given && c.options.policy->chooses)
-      omit(plan, {OmissionKind::option_ignored, -1, static_cast<double>(option), 0.0, 0});
-  };
-  ignored(c.options.share < 1.0, IgnoredOption::page_share);
-  ignored(c.options.reach_texels > 0.0, IgnoredOption::page_reach);
   if (plan.target_m > c.options.target_m)
     omit(plan, {OmissionKind::pages_coarsened, -1, c.options.target_m, plan.target_m, 0});
   if (plan.points_coarser > 0)
@@ -279,15 +274,17 @@ PagePlan plan_pages(const View& view, const Light& light, const SceneBounds& bou
   const PageMemory parts = parts_of(memory, pages.capacity);
   plan.invalid_field = invalid_points(view, known, parts);
   if (!plan.invalid_field.empty()) return plan;
+  const ResolvedPages how = resolve_pages(pages);
   const Camera finite = with_finite_far(view.camera, bounds.receivers);
-  PageContext& c = *::new (parts.context) PageContext{finite, view, known, pages, parts, camera_axes(finite)};
+  PageContext& c =
+      *::new (parts.context) PageContext{finite, view, known, how.options, parts, camera_axes(finite)};
   plan.clip_space = pages.plan.clip_space;
   plan.bias = pages.plan.bias;
   plan.page_texels = pages.page_texels;
   plan.border_texels = static_cast<int>(std::ceil(pages.plan.filter.texels));
   plan.capacity = pages.capacity;
   plan.target_m = pages.target_m;
-  plan.status = plan_base(light, bounds, c, plan);
+  plan.status = plan_base(light, bounds, how, c, plan);
   if (plan.status != PlanStatus::ok) return plan;
   make_ladder(c);
   add_points(bounds, c);

@@ -2,6 +2,7 @@
 #include "resolve/resolve.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <variant>
 
 namespace gnomon {
@@ -229,12 +230,23 @@ PlanOptions resolve_lights(const PlanOptions& options, int side) noexcept {
   return resolved;
 }
 
-ResolvedPages resolve_pages(const PlanOptions& options, bool stable, int texels,
-                            double border_texels) noexcept {
+ResolvedPages resolve_pages(const PageOptions& asked) noexcept {
+  // Pages have their own sizes, so that any number of texels serves.
+  constexpr int kBaseTexels = 1024;
   ResolvedPages pages;
-  PlanOptions& o = pages.options;
+  pages.options = asked;
+  const PlanOptions& options = asked.plan;
+  const PagePolicy& policy = *asked.policy;
+  if (policy.chooses) {
+    if (asked.share < 1.0) pages.ignored.add(IgnoredOption::page_share);
+    if (asked.reach_texels > 0.0) pages.ignored.add(IgnoredOption::page_reach);
+    pages.options.share = PageOptions{}.share;
+    pages.options.reach_texels = PageOptions{}.reach_texels;
+  }
+  const bool stable = options.fit == Fit::stable || policy.octaves;
+  PlanOptions& o = pages.base;
   o.cascades = 1;
-  o.resolution.max_size = texels;
+  o.resolution.max_size = kBaseTexels;
   o.fit = stable ? Fit::stable : Fit::tight;
   o.warp = options.warp;
   if (stable || o.warp.warp == nullptr) o.warp.warp = &warps::none;
@@ -248,7 +260,8 @@ ResolvedPages resolve_pages(const PlanOptions& options, bool stable, int texels,
   o.clip_space = options.clip_space;
   o.prune = options.prune.without(PruneRule::metric_resolution);
   // The coarsest page shows the whole base: casters in its border are among the base's.
-  o.filter.texels = std::min(0.25 * texels, border_texels);
+  const double border = std::ceil(kBaseTexels * std::ceil(options.filter.texels) / asked.page_texels);
+  o.filter.texels = std::min(0.25 * kBaseTexels, border);
   return pages;
 }
 

@@ -7,6 +7,7 @@
 
 #include "gnomon/extend/shape.hpp"
 #include "gnomon/extend/warp.hpp"
+#include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 
 namespace gnomon {
@@ -79,13 +80,13 @@ struct Resolved {
 /// The same for plan_lights, whose maps have one size each and lie where a cube's faces do.
 [[nodiscard]] PlanOptions resolve_lights(const PlanOptions& options, int side) noexcept;
 
+/// What holds of the options of plan_pages.
 struct ResolvedPages {
-  PlanOptions options;
+  PageOptions options;  // share and reach_texels have their defaults where they are ignored
+  PlanOptions base;     // of the maps that the pages lie on
   Ignored ignored;
 };
-/// The same for plan_pages, whose pages lie on maps of `texels` along a side with a border of
-/// `border_texels`. `stable`: the grid does not follow the camera.
-[[nodiscard]] ResolvedPages resolve_pages(const PlanOptions& options, bool stable, int texels,
-                                          double border_texels) noexcept;
+/// The same for plan_pages. The options are valid and name a policy.
+[[nodiscard]] ResolvedPages resolve_pages(const PageOptions& options) noexcept;
 
 }  // namespace gnomon

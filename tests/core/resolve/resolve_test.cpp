@@ -310,16 +310,33 @@ TEST(Resolve, an_option_that_is_ignored_may_change_without_restarting_a_history)
 TEST(Resolve, pages_and_lights_have_their_own) {
   Input in;
   all<planes, tetrahedron, bounded, budget>(in);
-  const ResolvedPages pages = resolve_pages(in.options, true, 1024, 3.0);
+  PageOptions asked;
+  asked.policy = &page_policies::resolution;
+  asked.plan = in.options;
+  asked.plan.fit = Fit::stable;
+  const ResolvedPages pages = resolve_pages(asked);
   EXPECT_TRUE(lists(pages.ignored.entries(), ignored(IgnoredOption::planes)));
-  EXPECT_EQ(pages.options.fit, Fit::stable);
-  EXPECT_EQ(pages.options.warp.warp, &warps::none);
-  EXPECT_FALSE(pages.options.warp.has_planes());
+  EXPECT_EQ(pages.base.fit, Fit::stable);
+  EXPECT_EQ(pages.base.warp.warp, &warps::none);
+  EXPECT_FALSE(pages.base.warp.has_planes());
   EXPECT_FALSE(lists(pages.ignored.entries(), ignored(IgnoredOption::shape)));
-  in.options.warp.shape = &shapes::paraboloid;
-  const ResolvedPages bent = resolve_pages(in.options, false, 1024, 3.0);
+  asked.plan.fit = Fit::tight;
+  asked.plan.warp.shape = &shapes::paraboloid;
+  const ResolvedPages bent = resolve_pages(asked);
   EXPECT_TRUE(lists(bent.ignored.entries(), ignored(IgnoredOption::shape)));
-  EXPECT_EQ(bent.options.warp.shape, &shapes::linear);
+  EXPECT_EQ(bent.base.warp.shape, &shapes::linear);
+  EXPECT_EQ(bent.base.fit, Fit::tight);
+  asked.share = 0.5;
+  asked.reach_texels = 2.0;
+  for (const PagePolicy* policy : all_page_policies()) {
+    asked.policy = policy;
+    const ResolvedPages own = resolve_pages(asked);
+    EXPECT_EQ(own.options.share, policy->chooses ? 1.0 : 0.5) << policy->name;
+    EXPECT_EQ(own.options.reach_texels, policy->chooses ? 0.0 : 2.0) << policy->name;
+    EXPECT_EQ(lists(own.ignored.entries(), ignored(IgnoredOption::page_share)), policy->chooses);
+    EXPECT_EQ(lists(own.ignored.entries(), ignored(IgnoredOption::page_reach)), policy->chooses);
+    EXPECT_EQ(own.base.fit, policy->octaves ? Fit::stable : Fit::tight) << policy->name;
+  }
   const PlanOptions lights = resolve_lights(in.options, 256);
   EXPECT_EQ(lights.resolution.max_size, 256);
   EXPECT_EQ(lights.resolution.max_error, 0.0);
