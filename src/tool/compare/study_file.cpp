@@ -114,6 +114,17 @@ void set_fields(const std::string& where, const Json& object, const std::vector<
   }
 }
 
+/// The study without what a view's fields take the place of because it does not go with them.
+Json under_view(Json study, const Json& view, const std::vector<Option>& options) {
+  for (const Option& option : options)
+    for (const std::string& other : option.excludes) {
+      const std::string one = field_of(option.name), two = field_of(other);
+      if (view.contains(one)) study.erase(two);
+      if (view.contains(two)) study.erase(one);
+    }
+  return study;
+}
+
 /// One technique of a list, as a row has it. One that has a name says where it is from, what differs from
 /// its description, and how it was checked.
 report::Technique technique_of(const std::string& field, const Json& object) {
@@ -248,7 +259,7 @@ std::vector<CompareRequest> study_from(std::string_view text, const std::string&
     const std::string of_view = has_views ? "views[" + std::to_string(i) + "]" : "";
     if (!views[i].is_object()) refuse(where + of_view, "needs an object");
     const std::vector<Option> options = options_of(request);
-    set_fields(where, study, options, {"schema", "views", "techniques"});
+    set_fields(where, under_view(study, views[i], options), options, {"schema", "views", "techniques"});
     const std::string before_field = where + of_view + (has_views ? "." : "");
     set_fields(before_field, views[i], options, {std::begin(kOfView), std::end(kOfView)});
     set_manifest(before_field, views[i], request, names);

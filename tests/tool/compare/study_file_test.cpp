@@ -172,6 +172,17 @@ TEST(StudyFile, measures_each_of_many_lights_that_share_their_texels) {
   EXPECT_EQ(report::read_rows(folder.path() / "out").size(), 8u);
 }
 
+TEST(StudyFile, drops_a_field_that_does_not_go_with_one_of_a_view) {
+  const TemporaryFolder folder;
+  const Finished finished = compared_by(folder, R"({"schema": "gnomon-study/1", "filters": "hard",
+    "warps": "none", "cascades": 1, "map_sizes": 64, "frames": 1, "rounds": 1, "size": "64x36", "near": 0.3,
+    "local_lights": 2, "views": [{"scenes": "builtin:hangar"}, {"scenes": "builtin:hangar", "light": "point"}]})");
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  std::set<std::string> lights;
+  for (const report::Row& row : report::read_rows(folder.path() / "out")) lights.insert(row.light);
+  EXPECT_EQ(lights, (std::set<std::string>{"spot 1 of 2", "point 2 of 2", "point"}));
+}
+
 TEST(LightPool, gives_lights_sizes_of_their_own_within_the_texels_of_equal_maps) {
   const Box ground{{-30.0, -1.0, -30.0}, {30.0, 0.0, 30.0}}, house{{-4.0, 0.0, -8.0}, {4.0, 6.0, -2.0}};
   const std::vector<Box> boxes{ground, house};
