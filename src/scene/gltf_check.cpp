@@ -297,6 +297,21 @@ const json* find_object(const json& source, const char* key) {
   return it != source.end() && it->is_object() ? &*it : nullptr;
 }
 
+const json* find_extension(const json& owner, const char* name) {
+  const json* extensions = find_object(owner, "extensions");
+  return extensions == nullptr ? nullptr : find_object(*extensions, name);
+}
+
+const json* find_extension(const json& owner, const char* name, const std::string& where,
+                           std::vector<std::string>& warnings) {
+  const json* extensions = find_object(owner, "extensions");
+  if (extensions == nullptr || !extensions->contains(name)) return nullptr;
+  const json* found = find_object(*extensions, name);
+  if (found == nullptr)
+    warn(warnings, where + (where.empty() ? "" : ".") + name, "is no object, and does not count");
+  return found;
+}
+
 json checked_array(const json& source, const char* name) {
   const auto* array = std::find_if(kArrays.begin(), kArrays.end(),
                                    [&](const ArrayRule& a) { return std::string_view(a.name) == name; });
@@ -307,8 +322,7 @@ namespace {
 
 json checked_extension(const json& source, const json& owner, const char* name, std::span<const Rule> rules,
                        const std::string& where) {
-  const json* extensions = find_object(owner, "extensions");
-  const json* found = extensions == nullptr ? nullptr : find_object(*extensions, name);
+  const json* found = find_extension(owner, name);
   return found == nullptr ? json() : checked_object(source, *found, where, rules);
 }
 

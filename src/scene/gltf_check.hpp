@@ -48,5 +48,11 @@ void check_extensions(const nlohmann::json& source);
 
 /// source[key] where that is an object, else nothing.
 [[nodiscard]] const nlohmann::json* find_object(const nlohmann::json& source, const char* key);
+/// The extension `name` of the document or one of its parts; nothing where it has none that is an object.
+[[nodiscard]] const nlohmann::json* find_extension(const nlohmann::json& owner, const char* name);
+/// The same, with a warning where it is no object. `where`: place of the owner; empty: the document.
+[[nodiscard]] const nlohmann::json* find_extension(const nlohmann::json& owner, const char* name,
+                                                   const std::string& where,
+                                                   std::vector<std::string>& warnings);
 
 }  // namespace gnomon::detail

@@ -132,14 +132,9 @@ std::vector<ImageSource> list_images(const json& source) {
 std::optional<TextureTransform> texture_transform(const json& texture_info, const std::string& of,
                                                   std::vector<std::string>& warnings) {
   constexpr const char* kName = "KHR_texture_transform";
-  const json* extensions = find_object(texture_info, "extensions");
-  if (extensions == nullptr || !extensions->contains(kName)) return std::nullopt;
+  const json* found = find_extension(texture_info, kName, of, warnings);
+  if (found == nullptr) return std::nullopt;
   const std::string where = of + "." + kName;
-  const json* found = find_object(*extensions, kName);
-  if (found == nullptr) {
-    warn(warnings, where, "is no object, and does not count");
-    return std::nullopt;
-  }
   TextureTransform out;
   // Each field by itself, where it is what it should be.
   const auto take = [&](const char* key, const char* what, const auto& is_right, const auto& set) {
@@ -170,9 +165,7 @@ void adopt_specular_glossiness(json& source) {
   const auto materials = source.find("materials");
   if (materials == source.end() || !materials->is_array()) return;
   for (json& material : *materials) {
-    const json* extensions = find_object(material, "extensions");
-    const json* found =
-        extensions == nullptr ? nullptr : find_object(*extensions, "KHR_materials_pbrSpecularGlossiness");
+    const json* found = find_extension(material, "KHR_materials_pbrSpecularGlossiness");
     if (found == nullptr || material.contains("pbrMetallicRoughness")) continue;
     json told = json::object();
     if (found->contains("diffuseFactor")) told["baseColorFactor"] = found->at("diffuseFactor");
@@ -186,8 +179,7 @@ void adopt_webp(json& source) {
   const auto textures = source.find("textures");
   if (textures == source.end() || !textures->is_array()) return;
   for (json& texture : *textures) {
-    const json* extensions = find_object(texture, "extensions");
-    const json* found = extensions == nullptr ? nullptr : find_object(*extensions, "EXT_texture_webp");
+    const json* found = find_extension(texture, "EXT_texture_webp");
     if (found == nullptr || !found->contains("source")) continue;
     json picture = found->at("source");
     texture["source"] = std::move(picture);
@@ -213,14 +205,8 @@ std::vector<std::optional<TextureTransform>> list_transforms(const json& source,
 
 /// The factor of KHR_materials_transmission; a broken one counts as none.
 float transmission(const json& material, const std::string& where, std::vector<std::string>& warnings) {
-  const json* extensions = find_object(material, "extensions");
-  const json* found =
-      extensions == nullptr ? nullptr : find_object(*extensions, "KHR_materials_transmission");
-  if (found == nullptr) {
-    if (extensions != nullptr && extensions->contains("KHR_materials_transmission"))
-      warn(warnings, where, "KHR_materials_transmission is no object; nothing shines through");
-    return 0.0f;
-  }
+  const json* found = find_extension(material, "KHR_materials_transmission", where, warnings);
+  if (found == nullptr) return 0.0f;
   if (found->contains("transmissionTexture"))
     warn(warnings, where, "its transmission's picture is not read; the factor holds everywhere");
   const auto factor = found->find("transmissionFactor");

@@ -21,8 +21,7 @@ namespace {
 using nlohmann::json;
 
 bool is_hidden(const json& node, const std::string& where, std::vector<std::string>& warnings) {
-  const json* extensions = find_object(node, "extensions");
-  const json* found = extensions == nullptr ? nullptr : find_object(*extensions, "KHR_node_visibility");
+  const json* found = find_extension(node, "KHR_node_visibility");
   if (found == nullptr || !found->contains("visible")) return false;
   const json& visible = found->at("visible");
   if (visible.is_boolean()) return !visible.get<bool>();

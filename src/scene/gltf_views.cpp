@@ -149,24 +149,10 @@ Light placed(Light light, const glm::dmat4& world, const Box& scene) {
 
 }  // namespace
 
-namespace {
-
-/// KHR_lights_punctual of the document or a node; nullptr where there is none, or none that is an object,
-/// which is warned of.
-const json* punctual_of(const json& owner, const std::string& where, std::vector<std::string>& warnings) {
-  constexpr const char* kName = "KHR_lights_punctual";
-  const json* extensions = find_object(owner, "extensions");
-  if (extensions == nullptr || !extensions->contains(kName)) return nullptr;
-  const json* found = find_object(*extensions, kName);
-  if (found == nullptr) warn(warnings, where + kName, "is no object, skipped");
-  return found;
-}
-
-}  // namespace
-
 ViewSource read_view_source(const json& source, std::vector<std::string>& warnings) {
   ViewSource out;
-  const json* punctual = punctual_of(source, "", warnings);
+  constexpr const char* kPunctual = "KHR_lights_punctual";
+  const json* punctual = find_extension(source, kPunctual, "", warnings);
   const auto list_in = [](const json* owner, const char* key) -> const json* {
     return owner != nullptr && owner->contains(key) ? &owner->at(key) : nullptr;
   };
@@ -177,12 +163,11 @@ ViewSource read_view_source(const json& source, std::vector<std::string>& warnin
   for (std::size_t n = 0; nodes != nullptr && nodes->is_array() && n < nodes->size(); ++n) {
     const json& node = (*nodes)[n];
     if (!node.is_object()) continue;
-    const std::string where = element("nodes", n) + ".";
-    const json* lit = punctual_of(node, where, warnings);
-    if (const auto light =
-            named_by(lit, "light", where + "KHR_lights_punctual.light", lights, node, warnings))
+    const std::string where = element("nodes", n);
+    const json* lit = find_extension(node, kPunctual, where, warnings);
+    if (const auto light = named_by(lit, "light", where + "." + kPunctual + ".light", lights, node, warnings))
       out.lights.push_back({n, *light});
-    if (const auto camera = named_by(&node, "camera", where + "camera", cameras, node, warnings))
+    if (const auto camera = named_by(&node, "camera", where + ".camera", cameras, node, warnings))
       out.cameras.push_back({n, *camera});
   }
   return out;

@@ -88,10 +88,10 @@ TEST(GltfLights, that_nodes_name_wrongly_are_warned_of_by_their_place) {
     EXPECT_EQ(warnings_of(gltf), Lines{where + ".light: is no number of one of the lights, skipped"});
   }
   named = 7;
-  EXPECT_EQ(warnings_of(gltf), Lines{where + ": is no object, skipped"});
+  EXPECT_EQ(warnings_of(gltf), Lines{where + ": is no object, and does not count"});
   gltf = lit();
   gltf.document["extensions"]["KHR_lights_punctual"] = 7;
-  EXPECT_EQ(warnings_of(gltf)[0], "KHR_lights_punctual: is no object, skipped");
+  EXPECT_EQ(warnings_of(gltf)[0], "KHR_lights_punctual: is no object, and does not count");
   gltf.document["extensions"]["KHR_lights_punctual"] = {{"lights", 7}};
   EXPECT_EQ(warnings_of(gltf)[0], "KHR_lights_punctual.lights: is no list, skipped");
 }
