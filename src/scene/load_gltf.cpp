@@ -250,8 +250,7 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     NodePlacer placer(document, tree, limits, scene);
     for (const int node : tree.shown) placer.place(node);
     placer.place_proxies();
-    if (scene.bounds_world.empty() && scene.warnings.empty())
-      warn(scene.warnings, "scene", "has no triangles, and shows nothing");
+    if (scene.bounds_world.empty()) warn(scene.warnings, "scene", "has no triangles, and shows nothing");
     place_views(document.views, tree, scene);
     read_materials(document, files, limits, scene);
     if (files_hash != nullptr) *files_hash = fnv_of(bytes, files.hash());

@@ -31,8 +31,9 @@ TEST(GltfGeometry, a_mode_without_a_whole_triangle_is_skipped_with_a_warning) {
   for (const int mode : {4, 5, 6}) {
     const Scene scene = square_as(mode, {0, 1});
     EXPECT_TRUE(scene.instances.empty());
-    ASSERT_EQ(scene.warnings.size(), 1u);
+    ASSERT_EQ(scene.warnings.size(), 2u);
     EXPECT_NE(scene.warnings[0].find("meshes[0].primitives[0]"), std::string::npos);
+    EXPECT_EQ(scene.warnings[1], "scene: has no triangles, and shows nothing");
   }
 }
 
@@ -110,6 +111,8 @@ TEST(GltfMarks, of_a_cloud_too_large_are_refused_before_they_are_made) {
   limits.triangles = 31;
   EXPECT_THROW((void)gltf.load(limits), SceneError);
   limits.triangles = 32;
+  EXPECT_EQ(gltf.load(limits).triangle_count(), 32u);
+  limits.vertices = 24;
   EXPECT_EQ(gltf.load(limits).triangle_count(), 32u);
   limits.vertices = 23;
   EXPECT_THROW((void)gltf.load(limits), SceneError);

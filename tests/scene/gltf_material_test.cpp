@@ -260,6 +260,16 @@ TEST(GltfExtensions, that_are_used_and_not_read_are_one_line_with_their_count) {
           "extensionsUsed: VENDOR_magic is not supported, what it says does not count (2 places)"}));
 }
 
+TEST(GltfWarnings, of_a_file_without_triangles_say_so_beside_all_else) {
+  TestGltf gltf = one_triangle();
+  gltf.document["scenes"][0]["nodes"] = json::array();
+  gltf.document["extensionsUsed"] = {"VENDOR_magic"};
+  gltf.document["extensions"]["VENDOR_magic"] = json::object();
+  const std::vector<std::string> warnings = gltf.load().warnings;
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(warnings[1], "scene: has no triangles, and shows nothing");
+}
+
 TEST(GltfWarnings, that_say_the_same_of_many_elements_are_counted_from_the_fourth_on) {
   TestGltf gltf = one_triangle();
   for (int i = 0; i < 300; ++i) gltf.show_node({{"camera", 7}});
