@@ -61,11 +61,10 @@ std::vector<Option> edit_options(SceneEdits& edits) {
     edits.sections = section_words("--section", word);
     return true;
   };
-  const std::vector<std::string> axes{"y", "z"};  // in the order of UpAxis
   return {{.name = "--up",
-           .target = enum_word(edits.up, axes),
+           .target = enum_word(edits.up, up_axis_names()),
            .help = "axis of the scene's file that points up, y as glTF has it, or z",
-           .names = axes},
+           .names = up_axis_names()},
           {.name = "--open-sky",
            .target = &edits.open_sky,
            .help = "let a mesh that surrounds the scene as its sky cast no shadow"},

@@ -10,6 +10,10 @@
 
 namespace gnomon::tool {
 
+/// In the order of UpAxis.
+[[nodiscard]] inline std::vector<std::string> up_axis_names() {
+  return {"y", "z"};
+}
 [[nodiscard]] std::vector<Option> edit_options(SceneEdits& edits);
 /// Planes as NX,NY,NZ,D with / between them. Throws std::runtime_error with the option in front.
 [[nodiscard]] std::vector<SectionPlane> section_words(const std::string& option, const std::string& word);

@@ -57,8 +57,8 @@ void camera_part(Document& document, const Stage* stage, Display& display) {
   double fov = state.fov_y_deg > 0.0 || stage == nullptr ? state.fov_y_deg
                                                          : stage->loaded().path.fov_y_radians * kDegrees;
   constexpr double kNarrow = 5.0, kWide = 150.0;
-  if (ImGui::SliderScalar("field of view", ImGuiDataType_Double, &fov, &kNarrow, &kWide, "%.0f degrees"))
-    state.fov_y_deg = std::clamp(fov, 1.0, 170.0);
+  if (ImGui::SliderScalar("field of view", ImGuiDataType_Double, &fov, &kNarrow, &kWide, "%.3g degrees"))
+    state.fov_y_deg = std::clamp(fov, kLeastFovDeg, kMostFovDeg);
   if (ImGui::Button(document.recording ? "end the recording (K)" : "record a path (K)"))
     toggle_path_recording(document, stage, display);
   tooltip(

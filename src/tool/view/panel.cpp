@@ -223,6 +223,8 @@ void scene_part(App& app) {
   if (app.drawing.stage != nullptr && !app.drawing.stage->loaded().grounded)
     ImGui::TextWrapped("Nothing lies under this scene that its shadow could fall on.");
   if (ImGui::Checkbox("sky casts no shadow", &edited.edits.open_sky)) set_state(app, edited);
+  if (app.drawing.stage != nullptr && app.drawing.stage->loaded().shaded_by_sky)
+    ImGui::TextWrapped("A sky round this scene casts on all of it.");
   bool z_up = edited.edits.up == UpAxis::z;
   if (ImGui::Checkbox("z points up in its file", &z_up)) {
     edited.edits.up = z_up ? UpAxis::z : UpAxis::y;

@@ -99,6 +99,7 @@ std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_t
   loaded->scene = load_edited(scene, limits_of_triangles(max_triangles), edits);
   loaded->edits = edits;
   loaded->grounded = has_ground(loaded->scene);
+  loaded->shaded_by_sky = has_sky_that_casts(loaded->scene);
   constexpr double kUsualAspect = 16.0 / 9.0;
   loaded->path = default_path(loaded->scene, kUsualAspect);
   loaded->parted = panes;

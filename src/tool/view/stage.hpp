@@ -28,8 +28,9 @@ struct Loaded {
   Scene scene;       ///< where `parted` without its panes
   Scene panes;
   bool parted = false;
-  SceneEdits edits;      ///< that `scene` has had
-  bool grounded = true;  ///< has_ground()
+  SceneEdits edits;            ///< that `scene` has had
+  bool grounded = true;        ///< has_ground()
+  bool shaded_by_sky = false;  ///< has_sky_that_casts()
   CameraPath path;
   ShadowBoxes boxes;  ///< of the instances at rest, and of panes behind them
 };

@@ -9,6 +9,7 @@
 #include "base/bounded_file.hpp"
 #include "base/nearest_name.hpp"
 #include "base/whole_file.hpp"
+#include "edit_words.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "identifier_word.hpp"
 #include "option_words.hpp"
@@ -446,7 +447,7 @@ State read_state(std::string_view text) {
   State state;
   reader.read("scene", state.scene);
   reader.read("panes", state.panes);
-  reader.read_name("up", state.edits.up, {"y", "z"});  // in the order of UpAxis
+  reader.read_name("up", state.edits.up, up_axis_names());
   reader.read("open_sky", state.edits.open_sky);
   reader.read("ground", state.edits.ground);
   state.edits.sections = read_sections(reader, "section");
