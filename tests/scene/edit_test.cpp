@@ -140,6 +140,19 @@ TEST(Sky, that_casts_is_found_and_opened_and_nothing_else_is) {
   }
 }
 
+TEST(Sky, that_shares_its_mesh_with_what_it_surrounds_casts_as_before) {
+  ViewScene town("town");
+  PartMesh mesh;
+  for (double x = -36.0; x <= 36.0; x += 12.0)
+    for (double z = -36.0; z <= 36.0; z += 12.0) mesh.box({x - 4, 0, z - 4}, {x + 4, 10, z + 4});
+  town.content(mesh.box({-400, -400, -400}, {400, 400, 400}, true));
+  Scene scene = town.gltf.load();
+  EXPECT_FALSE(has_sky_that_casts(scene));
+  open_sky(scene);
+  ASSERT_EQ(scene.instances.size(), 1u);
+  EXPECT_TRUE(scene.instances[0].casts);
+}
+
 // Ground.
 
 TEST(Ground, is_not_added_to_a_scene_without_triangles) {
