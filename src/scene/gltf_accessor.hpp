@@ -10,8 +10,8 @@
 
 namespace gnomon::detail {
 
-/// Refuses by its place what tinygltf refuses without: types of components and shapes of elements that are
-/// not known.
+/// Throws Refusal with the place of a component type or element type that glTF does not have. tinygltf would
+/// name no place.
 void check_accessors(const nlohmann::json& document);
 
 /// The accessor's elements as `components` floats each, normalized integers expanded. An accessor with no

@@ -38,7 +38,7 @@ struct SceneEdits {
 void turn_up(UpAxis up, Scene& scene);
 /// True where a mesh surrounds all the rest from afar, faces it, and casts: a sky that darkens the scene.
 [[nodiscard]] bool has_sky_that_casts(const Scene& scene);
-/// Lets such meshes cast no shadow. One that is a part of a mesh that holds more casts as before.
+/// Lets such meshes cast no shadow. A sky that shares its mesh with other things casts as before.
 void open_sky(Scene& scene);
 /// True where something lies under the scene that a shadow could fall on: a ground or land. Surfaces of its
 /// own count where they face up and have nothing below them, over half of it or more.
