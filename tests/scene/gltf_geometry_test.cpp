@@ -47,6 +47,14 @@ double volume_of(const Scene& scene) {
   return volume;
 }
 
+// Whether no corner has a normal on the back of its triangle. The ends of bars have those of their sides.
+bool normals_face_as_triangles_do(const Scene& scene) {
+  constexpr float kRounding = 1e-6f;
+  for (std::size_t i = 0; i < scene.indices.size(); ++i)
+    if (!(glm::dot(scene.normals[scene.indices[i]], wound_normal(scene, i / 3)) > -kRounding)) return false;
+  return true;
+}
+
 TEST(GltfMarks, points_are_octahedra_and_lines_are_bars_of_the_width_that_extras_give) {
   constexpr double kWidth = 0.25, kRounding = 1e-6;
   struct Marks {
@@ -64,6 +72,7 @@ TEST(GltfMarks, points_are_octahedra_and_lines_are_bars_of_the_width_that_extras
     EXPECT_TRUE(scene.warnings.empty());
     EXPECT_EQ(scene.triangle_count(), triangles) << mode;
     EXPECT_NEAR(volume_of(scene), volume, kRounding) << mode;
+    EXPECT_TRUE(normals_face_as_triangles_do(scene)) << mode;
     ASSERT_EQ(scene.instances.size(), 1u);
     EXPECT_TRUE(scene.instances[0].casts && scene.instances[0].receives);
     // Lines end at x = 0, where a loop has one across.
@@ -72,6 +81,17 @@ TEST(GltfMarks, points_are_octahedra_and_lines_are_bars_of_the_width_that_extras
     EXPECT_NEAR(scene.bounds_world.max.y, 1.0 + 0.5 * kWidth, kRounding) << mode;
     EXPECT_NEAR(scene.bounds_world.max.z, 0.5 * kWidth, kRounding) << mode;
   }
+}
+
+TEST(GltfMarks, have_the_texture_coordinates_of_their_corners_and_lines_without_length_are_none) {
+  TestGltf gltf;
+  const int position = gltf.positions({0, 0, 0, 0, 0, 0, 4, 0, 0});
+  const int texcoord = gltf.accessor(gltf.view(std::vector<float>{1, 2, 1, 2, 3, 4}), kFloat, "VEC2", 3);
+  gltf.show({{"attributes", {{"POSITION", position}, {"TEXCOORD_0", texcoord}}}, {"mode", 3}});
+  const Scene scene = gltf.load();
+  ASSERT_EQ(scene.triangle_count(), 12u) << "of the second of two lines";
+  for (std::size_t v = 0; v < scene.positions.size(); ++v)
+    EXPECT_EQ(scene.texcoords[v], scene.positions[v].x > 2.0f ? glm::vec2(3, 4) : glm::vec2(1, 2)) << v;
 }
 
 TEST(GltfMarks, without_a_width_have_one_by_their_extent_and_a_warning) {
