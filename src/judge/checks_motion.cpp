@@ -38,11 +38,14 @@ Motion motion_of(const Capture& capture, const LightLooks& before, const Capture
   Motion motion;
   std::vector<double> drifts, growths;
   // A map that serves a few points moves over all that it holds.
-  const auto served =
-      static_cast<std::size_t>(std::count(before.chosen.begin(), before.chosen.end(), static_cast<int>(map)));
+  const auto serves = [&](std::size_t p) {
+    return before.counts[p] != 0 && before.chosen[p] == static_cast<int>(map);
+  };
+  std::size_t served = 0;
+  for (std::size_t p = 0; p < before.counts.size(); ++p) served += serves(p) ? 1 : 0;
   if (served == 0) return motion;
   for (std::size_t p = 0; p < before.counts.size(); ++p) {
-    if (before.counts[p] == 0 || (served >= kEnough && before.chosen[p] != static_cast<int>(map))) continue;
+    if (before.counts[p] == 0 || (served >= kEnough && !serves(p))) continue;
     const Look& was = before.of[map][p];
     const Look is = look_at(now, capture.clip_space, light, before.seen->points[p]);
     if (!was.inside() || !is.inside()) continue;
