@@ -148,8 +148,7 @@ CapturedMap map_of(const json& value, const std::string& path, const Convention&
     fields.refuse("filter_texels", "must lie in 0..65536");
   fields.read("clamps_depth", map.clamps_depth);
   map.stores_back = flag(fields, "stores", "back", "front");
-  map.has_bias = fields.has("bias") || bias;
-  map.bias = fields.has("bias") ? bias_of(fields.at("bias"), path + ".bias") : bias.value_or(CapturedBias{});
+  map.bias = fields.has("bias") ? bias_of(fields.at("bias"), path + ".bias") : bias;
   return map;
 }
 

@@ -36,14 +36,13 @@ struct CapturedMap {
   TexelRect atlas;            ///< its place in an atlas; empty: none
   /// View depths that it serves, world units.
   double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();
-  double overlap = 0.0;        ///< of the blend band before `begin`, world units
-  int depth_bits = 0;          ///< of a normalized integer; 0: single precision
-  double filter_texels = 0.0;  ///< radius of the filter's kernel
-  bool stores_back = false;    ///< back faces are drawn: a closed caster's far side
-  bool clamps_depth = false;   ///< casters before the near plane are drawn on it
-  CapturedBias bias;
-  bool has_bias = false;  ///< the file says one, if only of zeros
-  std::string path;       ///< in the file
+  double overlap = 0.0;              ///< of the blend band before `begin`, world units
+  int depth_bits = 0;                ///< of a normalized integer; 0: single precision
+  double filter_texels = 0.0;        ///< radius of the filter's kernel
+  bool stores_back = false;          ///< back faces are drawn: a closed caster's far side
+  bool clamps_depth = false;         ///< casters before the near plane are drawn on it
+  std::optional<CapturedBias> bias;  ///< none: the file states none
+  std::string path;                  ///< in the file
 };
 
 /// What stands in the scene, as far as it is known; each list may be empty.

@@ -131,7 +131,7 @@ double texel_side(const Look& look) {
 }
 
 double bias_at(const CapturedMap& map, const Look& look, double cosine, const glm::dvec3& normal) {
-  const CapturedBias& b = map.bias;
+  const CapturedBias b = map.bias.value_or(CapturedBias{});
   const double side = texel_side(look), sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
   const double per_depth = look.depth_per_world > 0.0 ? 1.0 / look.depth_per_world : 0.0;
   const double growth =
@@ -141,7 +141,7 @@ double bias_at(const CapturedMap& map, const Look& look, double cosine, const gl
 }
 
 double needed_bias(const CapturedMap& map, const Look& look, double cosine, const glm::dvec3& normal) {
-  if (map.bias.follows_plane) return 0.0;
+  if (map.bias && map.bias->follows_plane) return 0.0;
   const double reach = 0.5 + map.filter_texels;
   return reach * (std::abs(glm::dot(look.texel_x, normal)) + std::abs(glm::dot(look.texel_y, normal))) /
          cosine;
@@ -187,15 +187,14 @@ void check_bias(const Capture&, const LightLooks& looks, const BrokenMaps& broke
       Finding finding = finding_of(FindingKind::bias_small, looks, i, share, "share",
                                    looks.seen->pixels[faults.small.worst_point]);
       finding.what = "Acne is likely on " + percent(share) + " of what " + map_name(looks, i) + " serves: " +
-                     (looks.map_at(i).has_bias ? "the bias there is " + digits(quantile(faults.small.sizes)) +
-                                                     " of what a texel and the filter need."
-                                               : "the capture gives it no bias.");
+                     (looks.map_at(i).bias ? "the bias there is " + digits(quantile(faults.small.sizes)) +
+                                                 " of what a texel and the filter need."
+                                           : "the capture gives it no bias.");
       const double normal = quantile(faults.missing_normal, 0.95);
-      finding.change =
-          std::string(looks.map_at(i).has_bias ? "Add" : "Say maps[].bias if there is one, or add") +
-          " a normal offset of " + digits(normal * faults.side) + " world units (" + digits(normal) +
-          " texels), or " + digits(quantile(faults.missing, 0.95)) +
-          " texels along the light there (slope bias), or follow the receiver's plane.";
+      finding.change = std::string(looks.map_at(i).bias ? "Add" : "Say maps[].bias if there is one, or add") +
+                       " a normal offset of " + digits(normal * faults.side) + " world units (" +
+                       digits(normal) + " texels), or " + digits(quantile(faults.missing, 0.95)) +
+                       " texels along the light there (slope bias), or follow the receiver's plane.";
       out.add(finding);
     }
     if (faults.matters(faults.large)) {

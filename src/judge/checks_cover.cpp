@@ -37,10 +37,6 @@ std::optional<glm::dvec2> pixel_of(const LightLooks& looks, const Faulty& faulty
   return looks.seen->pixels[faulty.worst_point];
 }
 
-bool in_range(double depth) {
-  return depth >= -kRim && depth <= 1.0 + kRim;
-}
-
 /// Points of one map that are in it, but before its near plane or behind its far one.
 struct Cut {
   Faulty points;

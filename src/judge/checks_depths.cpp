@@ -12,7 +12,6 @@ namespace {
 struct Gap {
   double begin, end;
   std::size_t points = 0;
-  bool before_all = false;
 };
 
 std::vector<Gap> gaps_of(const LightLooks& looks) {
@@ -22,9 +21,9 @@ std::vector<Gap> gaps_of(const LightLooks& looks) {
   std::sort(served.begin(), served.end());
   std::vector<Gap> gaps;
   double reached = looks.frame->camera.near_depth;
-  for (std::size_t i = 0; i < served.size(); ++i) {
-    if (served[i].first > reached) gaps.push_back({reached, served[i].first, 0, i == 0});
-    reached = std::max(reached, served[i].second);
+  for (const auto& [begin, end] : served) {
+    if (begin > reached) gaps.push_back({reached, begin});
+    reached = std::max(reached, end);
   }
   return gaps;
 }
@@ -73,13 +72,11 @@ void check_gaps(const LightLooks& looks, FindingList& out) {
       gap.points += looks.seen->depths[p] > gap.begin && looks.seen->depths[p] < gap.end ? 1 : 0;
   }
   constexpr std::size_t kEnough = 3;
-  std::string where;
   if (in_gaps < kEnough) {
     // Too narrow for the points in view.
     std::size_t at = 0;
-    const auto through = std::find_if(gaps.begin(), gaps.end(), [&](const Gap& gap) {
-      return !gap.before_all && reaches_through(looks, gap, at);
-    });
+    const auto through = std::find_if(gaps.begin(), gaps.end(),
+                                      [&](const Gap& gap) { return reaches_through(looks, gap, at); });
     if (through == gaps.end()) return;
     Finding finding = finding_of(FindingKind::gap_between_maps, looks, std::nullopt,
                                  1.0 / static_cast<double>(counted), "share", looks.seen->pixels[at]);
@@ -108,10 +105,18 @@ double other_near(const Camera& camera, NdcDepth said) {
   return std::isfinite(f) ? 2.0 * f * n / (f + n) : 2.0 * n;
 }
 
-double first_begin(const LightLooks& looks) {
-  double begin = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < looks.map.size(); ++i) begin = std::min(begin, looks.map_at(i).begin);
-  return begin;
+/// Depths from the first map's begin to the last one's end.
+struct Served {
+  double begin = std::numeric_limits<double>::infinity(), end = -std::numeric_limits<double>::infinity();
+};
+
+Served served_by(const LightLooks& looks) {
+  Served served;
+  for (std::size_t i = 0; i < looks.map.size(); ++i) {
+    served.begin = std::min(served.begin, looks.map_at(i).begin);
+    served.end = std::max(served.end, looks.map_at(i).end);
+  }
+  return served;
 }
 
 constexpr double kSameDepth = 1e-3;
@@ -120,7 +125,7 @@ constexpr double kSameDepth = 1e-3;
 void check_camera(const Capture& capture, const LightLooks& looks, FindingList& out) {
   const Camera& camera = looks.frame->camera;
   const ClipSpace& space = capture.camera_clip_space;
-  const double begin = first_begin(looks), other = other_near(camera, space.ndc_depth);
+  const double begin = served_by(looks).begin, other = other_near(camera, space.ndc_depth);
   if (camera.orthographic || space.reversed_z || !std::isfinite(begin) ||
       std::abs(begin - other) > kSameDepth * other)
     return;
@@ -139,24 +144,21 @@ void check_camera(const Capture& capture, const LightLooks& looks, FindingList& 
 
 /// Lit surfaces in view, none of which is at the depths that the maps serve.
 bool serves_nothing(const LightLooks& looks, FindingList& out) {
-  std::size_t lit = 0, counted = 0;
+  std::size_t lit = 0;
   double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
   for (std::size_t p = 0; p < looks.lit.size(); ++p) {
-    counted += looks.counts[p] != 0 && looks.chosen[p] >= 0 ? 1 : 0;
     if (looks.lit[p] == 0) continue;
+    if (looks.chosen[p] >= 0) return false;
     ++lit;
     nearest = std::min(nearest, looks.seen->depths[p]);
     farthest = std::max(farthest, looks.seen->depths[p]);
   }
-  if (lit < 3 || counted > 0) return false;
-  double begin = std::numeric_limits<double>::infinity(), end = -begin;
-  for (std::size_t i = 0; i < looks.map.size(); ++i) {
-    begin = std::min(begin, looks.map_at(i).begin);
-    end = std::max(end, looks.map_at(i).end);
-  }
+  if (lit < 3) return false;
+  const Served served = served_by(looks);
   Finding finding = finding_of(FindingKind::gap_between_maps, looks, std::nullopt, 1.0, "share");
-  finding.what = "No lit surface is at the view depths that the maps serve (" + digits(begin) + " to " +
-                 digits(end) + "): they are at " + digits(nearest) + " to " + digits(farthest) + ".";
+  finding.what = "No lit surface is at the view depths that the maps serve (" + digits(served.begin) +
+                 " to " + digits(served.end) + "): they are at " + digits(nearest) + " to " +
+                 digits(farthest) + ".";
   finding.change = "Give depths in world units, from the eye forward, and a camera that looks at the scene.";
   out.add(finding);
   return true;
@@ -171,7 +173,7 @@ bool camera_fits(const Capture& capture, const LightLooks& looks) {
     return false;
   // Read by the other range, a reversed matrix ends at twice its near plane.
   if (own.reversed_z) return camera.far_depth > 4.0 * camera.near_depth;
-  return std::abs(first_begin(looks) - camera.near_depth) <= kSameDepth * camera.near_depth;
+  return std::abs(served_by(looks).begin - camera.near_depth) <= kSameDepth * camera.near_depth;
 }
 
 bool check_depths(const Capture& capture, const LightLooks& looks, FindingList& out) {

@@ -59,15 +59,10 @@ void check_cone(const LightLooks& looks, std::size_t map_index, FindingList& out
   out.add(finding);
 }
 
-bool is_parallel(const CapturedMap& map) {
-  const glm::dmat4& m = map.clip_from_world;
-  return m[0][3] == 0.0 && m[1][3] == 0.0 && m[2][3] == 0.0;
-}
-
 /// Points of the map `from` that the map `to` holds with finer texels, although it is there for others.
 struct Coarser {
-  std::size_t points = 0, worst = 0;
-  std::vector<double> times;
+  std::size_t first = 0;      // of the points
+  std::vector<double> times;  // by point
 };
 
 bool is_finer(const Capture& capture, const LightLooks& looks, std::size_t from, std::size_t to,
@@ -92,35 +87,38 @@ void check_order(const Capture& capture, const LightLooks& looks, const BrokenMa
   const MapSelection selection = looks.selection();
   if (selection == MapSelection::finest) return;
   const std::size_t maps = looks.map.size();
+  // Texels of a perspective map are not in order by their map.
+  std::vector<bool> compared(maps);
+  for (std::size_t i = 0; i < maps; ++i)
+    compared[i] = !broken[i] && !perspective_axes(looks.map_at(i)).perspective;
   std::vector<Coarser> coarser(maps * maps);
   std::size_t counted = 0;
   for (std::size_t p = 0; p < looks.counts.size(); ++p) {
     if (looks.counts[p] == 0 || looks.chosen[p] < 0) continue;
     ++counted;
     const auto from = static_cast<std::size_t>(looks.chosen[p]);
-    if (broken[from] || !is_parallel(looks.map_at(from)) || !looks.of[from][p].inside()) continue;
+    if (!compared[from] || !looks.of[from][p].inside()) continue;
     for (std::size_t to = 0; to < maps; ++to) {
       const bool later = selection == MapSelection::view_depth
                              ? looks.map_at(to).begin > looks.map_at(from).begin
                              : to > from;
       double times = 0.0;
-      if (!later || broken[to] || !is_parallel(looks.map_at(to)) ||
-          !is_finer(capture, looks, from, to, p, times))
-        continue;
+      if (!later || !compared[to] || !is_finer(capture, looks, from, to, p, times)) continue;
       Coarser& c = coarser[from * maps + to];
-      if (c.points++ == 0) c.worst = p;
+      if (c.times.empty()) c.first = p;
       c.times.push_back(times);
     }
   }
-  const auto most = std::max_element(coarser.begin(), coarser.end(),
-                                     [](const Coarser& a, const Coarser& b) { return a.points < b.points; });
+  const auto most = std::max_element(coarser.begin(), coarser.end(), [](const Coarser& a, const Coarser& b) {
+    return a.times.size() < b.times.size();
+  });
   constexpr std::size_t kEnough = 20;
-  if (most == coarser.end() || most->points < kEnough || 10 * most->points < counted) return;
+  if (most == coarser.end() || most->times.size() < kEnough || 10 * most->times.size() < counted) return;
   const auto at = static_cast<std::size_t>(most - coarser.begin());
   const std::size_t from = at / maps, to = at % maps;
-  const double share = static_cast<double>(most->points) / static_cast<double>(counted);
+  const double share = static_cast<double>(most->times.size()) / static_cast<double>(counted);
   Finding finding = finding_of(FindingKind::selection_disagrees, looks, from, share, "share",
-                               looks.seen->pixels[most->worst]);
+                               looks.seen->pixels[most->first]);
   finding.what = "For " + percent(share) + " of the lit surfaces, " + map_name(looks, from) +
                  " is chosen, whose texels are " + digits(quantile(most->times)) +
                  " times as long as those of " + map_name(looks, to) + ", which holds them too.";

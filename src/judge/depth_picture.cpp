@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "judge/seen.hpp"
+
 namespace gnomon::judge {
 namespace {
 
@@ -23,11 +25,9 @@ class Surfaces {
   }
 
   [[nodiscard]] glm::dvec3 point(int column, int row) const {
-    const double across = (column + 0.5) / picture_.width, down = (row + 0.5) / picture_.height;
-    const glm::dvec3 aside = axes_.right * (camera_.left + (camera_.right - camera_.left) * across) +
-                             axes_.up * (camera_.top + (camera_.bottom - camera_.top) * down);
-    const double far = depth(column, row);
-    return camera_.position + axes_.forward * far + aside * (camera_.orthographic ? 1.0 : far);
+    const EyeRay ray =
+        eye_ray(camera_, axes_, (column + 0.5) / picture_.width, (row + 0.5) / picture_.height);
+    return ray.origin + ray.way * depth(column, row);
   }
 
   /// To the neighbour on either side that is nearer in depth; zero where neither shows the same surface.

@@ -34,6 +34,10 @@ double depth_of(double z, const ClipSpace& space) noexcept {
   return space.reversed_z ? 1.0 - depth : depth;
 }
 
+bool in_range(double depth) noexcept {
+  return depth >= -kRim && depth <= 1.0 + kRim;
+}
+
 double way_to_depth(const CapturedMap& map, const ClipSpace& space, const glm::dvec3& point,
                     const glm::dvec3& way, double depth) noexcept {
   const double along = space.reversed_z ? 1.0 - depth : depth;
@@ -119,6 +123,9 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
     for (const glm::dvec3& point : seen.points)
       of.push_back(look_at(looks.map_at(i), capture.clip_space, source, point));
   }
+  const auto holds = [&](const Look& look) {
+    return look.inside() && in_range(depth_of(look.clip.z, capture.clip_space));
+  };
   // Surfaces within a few degrees of the light's ray are dark by shading alone.
   constexpr double kFaces = 0.05;
   for (std::size_t p = 0; p < seen.points.size(); ++p) {
@@ -136,9 +143,7 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
     int chosen = -1, holding = -1;
     for (std::size_t i = 0; i < looks.map.size(); ++i) {
       const Look& look = looks.of[i][p];
-      const double depth = depth_of(look.clip.z, capture.clip_space);
-      if (holding < 0 && look.inside() && depth >= -kRim && depth <= 1.0 + kRim)
-        holding = static_cast<int>(i);
+      if (holding < 0 && holds(look)) holding = static_cast<int>(i);
       const CapturedMap& map = looks.map_at(i);
       if (looks.selection() == MapSelection::view_depth && chosen < 0 && seen.depths[p] >= map.begin &&
           seen.depths[p] <= map.end)
@@ -149,9 +154,8 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
       double most = 0.0;
       for (std::size_t i = 0; i < looks.map.size(); ++i) {
         const Look& look = looks.of[i][p];
-        const double depth = depth_of(look.clip.z, capture.clip_space);
         const double density = glm::length(glm::cross(look.along_x, look.along_y));
-        if (!look.inside() || depth < -kRim || depth > 1.0 + kRim || !(density > most)) continue;
+        if (!holds(look) || !(density > most)) continue;
         most = density;
         chosen = static_cast<int>(i);
       }

@@ -14,8 +14,7 @@ inline constexpr double kRim = 1e-6;
 
 /// A point in a map.
 struct Look {
-  bool lit_side = false;  ///< the surface may face the light
-  glm::dvec3 clip{0.0};   ///< after the division by w
+  glm::dvec3 clip{0.0};  ///< after the division by w
   double w = 0.0;
   glm::dvec2 texel{0.0};                  ///< from the map's first corner at ndc -1, -1
   glm::dvec3 along_x{0.0}, along_y{0.0};  ///< gradients of the texel's coordinates, texels per world unit
@@ -65,6 +64,8 @@ struct LightLooks {
                                   const glm::dvec3& way, double depth) noexcept;
 /// Depth that a clip z becomes, 0 near .. 1 far, whatever the convention.
 [[nodiscard]] double depth_of(double z, const ClipSpace& space) noexcept;
+/// Whether such a depth is in 0..1, but for rounding.
+[[nodiscard]] bool in_range(double depth) noexcept;
 /// The middle of the sorted values, or another share of them; 0 of none.
 [[nodiscard]] double quantile(std::vector<double> values, double share = 0.5);
 

@@ -20,18 +20,28 @@ struct SeenSurfaces {
 /// Rays across the image where boxes stand for surfaces.
 inline constexpr int kRayColumns = 96, kRayRows = 54;
 
-/// Calls `use(pixel, origin, ray)` for each of them. A ray is as long as one unit of depth.
+/// A ray of the camera, as long as one unit of depth.
+struct EyeRay {
+  glm::dvec3 origin, way;
+};
+/// At shares of the image's width and height from its upper left corner.
+[[nodiscard]] inline EyeRay eye_ray(const Camera& camera, const CameraAxes& axes, double across,
+                                    double down) noexcept {
+  const glm::dvec3 aside = axes.right * (camera.left + (camera.right - camera.left) * across) +
+                           axes.up * (camera.top + (camera.bottom - camera.top) * down);
+  if (camera.orthographic) return {camera.position + aside, axes.forward};
+  return {camera.position, axes.forward + aside};
+}
+
+/// Calls `use(pixel, origin, way)` for each of those rays.
 template <typename Use>
 void for_each_ray(const Camera& camera, Use&& use) {
   const CameraAxes axes = camera_axes(camera);
   for (int row = 0; row < kRayRows; ++row) {
     for (int column = 0; column < kRayColumns; ++column) {
       const double across = (column + 0.5) / kRayColumns, down = (row + 0.5) / kRayRows;
-      const glm::dvec3 aside = axes.right * (camera.left + (camera.right - camera.left) * across) +
-                               axes.up * (camera.top + (camera.bottom - camera.top) * down);
-      use(glm::dvec2(across * camera.width, down * camera.height),
-          camera.orthographic ? camera.position + aside : camera.position,
-          camera.orthographic ? axes.forward : axes.forward + aside);
+      const EyeRay ray = eye_ray(camera, axes, across, down);
+      use(glm::dvec2(across * camera.width, down * camera.height), ray.origin, ray.way);
     }
   }
 }
