@@ -90,7 +90,7 @@ Json judgement_json(const judge::Capture& capture, const SceneJudgement& result)
 }
 
 std::string error_text(const AliasingStats& error) {
-  if (error.samples == 0) return "of nothing that is seen";
+  if (error.samples == 0) return "no visible points";
   std::string text = "p50 " + judge::digits(error.p50) + ", p95 " + judge::digits(error.p95) + ", max " +
                      judge::digits(error.max);
   if (error.outside > 0) text += "; " + judge::percent(judge::share_missed(error)) + " not in their map";
@@ -99,8 +99,8 @@ std::string error_text(const AliasingStats& error) {
 
 void print_drawn(const DrawnLightErrors& errors) {
   const auto text = [](const DrawnErrors& e) {
-    return judge::digits(100.0 * e.wrong) +
-           " % misclassified (expected without drawing: " + judge::digits(100.0 * e.expected) + " %)";
+    return judge::percent(e.wrong) +
+           " misclassified (expected without drawing: " + judge::percent(e.expected) + ")";
   };
   print_line("  drawn, " + std::to_string(errors.pixels) + " pixels: " + text(errors.captured));
   if (errors.planned) print_line("  gnomon's plan, fit tight: " + text(*errors.planned));
@@ -108,11 +108,10 @@ void print_drawn(const DrawnLightErrors& errors) {
 
 /// " [also in maps 1, 2]"; empty where there are none.
 std::string also_text(const judge::Finding& finding) {
+  if (finding.also.empty()) return {};
   std::string text;
-  for (const int map : finding.also)
-    text += (text.empty() ? (finding.also.size() > 1 ? " [also in maps " : " [also in map ") : ", ") +
-            std::to_string(map);
-  return text.empty() ? text : text + "]";
+  for (const int map : finding.also) text += (text.empty() ? " " : ", ") + std::to_string(map);
+  return (finding.also.size() > 1 ? " [also in maps" : " [also in map") + text + "]";
 }
 
 std::string maps_text(int maps, std::int64_t texels, const AliasingStats& error) {

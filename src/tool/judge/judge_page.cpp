@@ -143,17 +143,18 @@ std::string figures_table(const judge::LightFigures& light) {
   std::string out = report::scroll_box("Errors of light " + std::to_string(light.light)) +
                     "<table><thead><tr><th>maps</th><th>texels</th><th>m p50</th><th>p95</th>"
                     "<th>max</th><th>not in their map</th></tr></thead><tbody>";
-  const auto row = [&](const std::string& name, std::int64_t texels, const AliasingStats& error) {
-    return "<td>" + name + "</td><td>" + (texels > 0 ? std::to_string(texels) : "") + "</td>" +
-           error_cells(error) + "<td>";
+  const auto row = [](const std::string& name, const std::string& texels, const AliasingStats& error,
+                      const std::string& missed) {
+    return "<td>" + name + "</td><td>" + texels + "</td>" + error_cells(error) + "<td>" + missed +
+           "</td></tr>";
   };
   const auto whole = [&](const std::string& name, std::int64_t texels, const AliasingStats& error) {
-    return row(name, texels, error) + report::percent(judge::share_missed(error)) + "</td></tr>";
+    return row(name, std::to_string(texels), error, report::percent(judge::share_missed(error)));
   };
   out += "<tr>" + whole("the capture's " + std::to_string(light.plan.map_count), light.texels, light.error);
   if (light.of_map.size() > 1) {
     for (const judge::LightFigures::OfMap& map : light.of_map)
-      out += "<tr>" + row("&nbsp; map " + std::to_string(map.map), 0, map.error) + "</td></tr>";
+      out += "<tr>" + row("&nbsp; map " + std::to_string(map.map), "", map.error, "");
   }
   for (const judge::LightFigures::Planned* planned : light.planned())
     out += "<tr class=\"best\">" + whole("gnomon's " + std::to_string(planned->plan.map_count) + ", fit " +
