@@ -46,6 +46,15 @@ glm::dmat4 scaled(double x, double y, double z, double shift_z) {
   return m;
 }
 
+std::string refusal(const std::string& text) {
+  try {
+    (void)read_capture(text);
+  } catch (const CaseError& error) {
+    return error.what();
+  }
+  return "taken";
+}
+
 void transform_maps(Json& capture, const glm::dmat4& left, int only) {
   for_each_map(capture, [&](Json& map, std::size_t index) {
     if (only >= 0 && index != static_cast<std::size_t>(only)) return;

@@ -21,6 +21,9 @@ using Json = nlohmann::json;
 
 /// The maps of a file with one frame, and those of all frames.
 void for_each_map(Json& capture, const std::function<void(Json& map, std::size_t index)>& change);
+/// What read_capture() says of the text: "taken" where it refuses nothing.
+[[nodiscard]] std::string refusal(const std::string& text);
+
 /// A matrix of the file, and back.
 [[nodiscard]] glm::dmat4 matrix(const Json& numbers);
 [[nodiscard]] Json numbers(const glm::dmat4& matrix);

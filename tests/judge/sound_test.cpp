@@ -156,6 +156,34 @@ TEST(SoundCaptures, may_have_lights_below_a_ceiling) {
   EXPECT_THAT(kinds(judged(c)), testing::IsEmpty());
 }
 
+TEST(SoundCaptures, slopes_of_a_bias_count_against_steps_of_depth) {
+  Json c = sound("ogre_pssm");
+  for_each_map(c, [](Json& map, std::size_t) { map["bias"] = {{"slope_factor", 1.5}}; });
+  EXPECT_THAT(kinds(judged(c)), testing::Not(testing::Contains("depth_precision")));
+}
+
+TEST(SoundCaptures, a_sun_with_depths_and_a_spot_without_choose_each_by_its_own) {
+  Json c = sound("three_csm"), spot = sound("three_spot");
+  for (Json& frame : c["frames"]) {
+    frame["lights"].push_back(spot["lights"][0]);
+    Json map = spot["maps"][0];
+    map["light"] = 1;
+    frame["maps"].push_back(map);
+  }
+  EXPECT_THAT(kinds(judged(c)), testing::IsEmpty());
+  const Capture capture = read_capture(c.dump());
+  EXPECT_THAT(capture.frames[0].selection,
+              testing::ElementsAre(MapSelection::view_depth, MapSelection::first_holding));
+}
+
+TEST(SoundCaptures, a_few_points_do_not_say_that_a_map_is_unseen) {
+  Json c = sound("ogre_pssm");
+  Json points = Json::array();
+  for (int i = 0; i < 600; ++i) points.push_back({-20.0 + i % 40, 0.0, 20.0 + i / 40 % 15, 0.0, 1.0, 0.0});
+  c["points"] = points;
+  EXPECT_THAT(kinds(judged(c)), testing::Not(testing::Contains("map_unseen")));
+}
+
 TEST(SoundCaptures, have_plans_beside_them_with_less_error) {
   for (const std::string& name : kNames) {
     if (name == "three_spot") continue;  // a spot near by: both have texels to spare
