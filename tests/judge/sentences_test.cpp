@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "captures.hpp"
 
 namespace gnomon::judge::test {
@@ -42,6 +44,13 @@ TEST(PlantedFaults, a_spot_that_shines_the_other_way_is_named_though_it_lights_n
   Json c = sound("three_spot");
   for (Json& x : only_light(c)["direction"]) x = -x.get<double>();
   EXPECT_THAT(sentence(judged(c), FindingKind::light_direction), testing::HasSubstr("180 degrees"));
+}
+
+TEST(PlantedFaults, a_mirrored_map_of_a_spot_that_lights_nothing_is_named) {
+  Json c = sound("three_spot");
+  only_light(c)["range"] = 0.01;
+  transform_maps(c, scaled(-1.0, 1.0, 1.0));
+  EXPECT_THAT(kinds(judged(c)), testing::ElementsAre("mirrored"));
 }
 
 TEST(PlantedFaults, texture_coordinates_of_a_spot_are_named) {
@@ -101,6 +110,23 @@ TEST(PlantedFaults, a_gap_narrower_than_the_points_is_named_by_its_depths) {
   EXPECT_THAT(sentence(judged(c), FindingKind::gap_between_maps), testing::HasSubstr("32.3 to 32.6"));
 }
 
+TEST(PlantedFaults, depths_without_a_map_are_no_gap_where_no_surface_reaches_through_them) {
+  Json c = first_frame(sound("three_csm"));
+  const Capture whole = read_capture(c.dump());
+  const SeenSurfaces seen = seen_surfaces(whole.frames[0], whole.scenes[0]);
+  // Between 26 and 37 there is nothing. Walls stand before the ground behind it, and the ground goes on
+  // there.
+  Json points = Json::array();
+  for (std::size_t p = 0; p < seen.points.size(); ++p) {
+    const glm::dvec3 &at = seen.points[p], &normal = seen.normals[p];
+    if (seen.depths[p] < 26.0 || seen.depths[p] > 37.0)
+      points.push_back({at.x, at.y, at.z, normal.x, normal.y, normal.z});
+  }
+  c["points"] = points;
+  c["maps"][0]["depths"][1] = 30.0;
+  EXPECT_EQ(sentence(judged(c), FindingKind::gap_between_maps), "");
+}
+
 TEST(PlantedFaults, a_camera_of_the_other_range_of_depths_is_named) {
   for (const char* name : {"three_csm", "babylon_stabilized"}) {
     Json c = sound(name);
@@ -133,6 +159,23 @@ TEST(PlantedFaults, both_planes_that_cut_are_named) {
   EXPECT_THAT(sentence(judged(c), FindingKind::receivers_cut),
               testing::AllOf(testing::HasSubstr("outside of its near and far planes"),
                              testing::HasSubstr("Move the near plane")));
+}
+
+TEST(PlantedFaults, a_plane_that_cuts_a_little_is_no_other_range_where_the_camera_says_nothing) {
+  Json c = sound("three_spot");
+  c["clip_space"]["ndc_depth"] = "zero_to_one";
+  c["camera_clip_space"] = Json::object();
+  transform_maps(c, scaled(1.0, 1.0, 28.0, -27.0) * scaled(1.0, 1.0, 0.5, 0.5));
+  const auto found = kinds(judged(c));
+  EXPECT_THAT(found, testing::Contains("receivers_cut"));
+  EXPECT_THAT(found, testing::Not(testing::Contains("depth_convention")));
+}
+
+TEST(PlantedFaults, a_spots_map_that_is_narrower_than_its_cone_is_named_with_how_far_the_cone_reaches) {
+  Json c = sound("three_spot");
+  transform_maps(c, scaled(2.0, 2.0, 1.0));
+  EXPECT_THAT(sentence(judged(c), FindingKind::receivers_outside),
+              testing::ContainsRegex("the farthest is [12][.0-9]* times as far from the middle of map 0"));
 }
 
 TEST(PlantedFaults, a_plane_that_cuts_is_no_other_range_of_depths_where_the_camera_fits) {
@@ -169,11 +212,29 @@ TEST(PlantedFaults, a_map_that_serves_few_points_is_held_still_as_others_are) {
   EXPECT_THAT(sentence(judged(c), FindingKind::swimming), testing::HasSubstr("map 3"));
 }
 
+TEST(Findings, of_a_large_bias_say_how_many_times_too_large_it_is) {
+  Json c = sound("babylon_stabilized");
+  for_each_map(c, [](Json& map, std::size_t) { map["bias"] = {{"world", 3.0}}; });
+  double times = 0.0;
+  const std::string text = sentence(judged(c), FindingKind::bias_large);
+  ASSERT_NE(text.find("Lower the bias"), std::string::npos) << text;
+  ASSERT_EQ(std::sscanf(text.c_str() + text.find("Lower the bias"), "Lower the bias: it is %lf", &times), 1);
+  EXPECT_GT(times, 4.0);
+}
+
 TEST(Findings, have_a_place_and_a_bias_in_units_of_engines) {
   const Judgement judgement = judged(shipped("babylon_cascades"));
   ASSERT_EQ(judgement.findings.size(), 2u);
   for (const Finding& finding : judgement.findings) EXPECT_TRUE(finding.pixel) << finding.what;
-  EXPECT_THAT(judgement.findings[0].change, testing::HasSubstr("a normal offset of"));
+  double world = 0.0, normal_texels = 0.0, along_texels = 0.0;
+  ASSERT_EQ(std::sscanf(judgement.findings[0].change.c_str(),
+                        "Add a normal offset of %lf world units (%lf texels), or %lf texels along", &world,
+                        &normal_texels, &along_texels),
+            3)
+      << judgement.findings[0].change;
+  // On a slope the way along the light is the longer one.
+  EXPECT_GT(world, 0.0);
+  EXPECT_LT(normal_texels, 0.95 * along_texels);
   Json c = shipped("babylon_cascades");
   for_each_map(c, [](Json& map, std::size_t) { map.erase("bias"); });
   EXPECT_THAT(sentence(judged(c), FindingKind::bias_small),

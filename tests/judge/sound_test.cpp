@@ -124,6 +124,17 @@ TEST(SoundCaptures, have_none_in_other_conventions_that_are_stated) {
   }
 }
 
+Json box_of(const Box& b) {
+  return {{"min", {b.min.x, b.min.y, b.min.z}}, {"max", {b.max.x, b.max.y, b.max.z}}};
+}
+
+Json camera_of(const Camera& camera) {
+  return {{"view_from_world", numbers(view_from_world(camera))},
+          {"clip_from_view", numbers(clip_from_view(camera))},
+          {"width", camera.width},
+          {"height", camera.height}};
+}
+
 TEST(SoundCaptures, may_have_lights_below_a_ceiling) {
   // A floor, a lamp above it, and a ceiling above the lamp, which shadows nothing.
   PlanOptions options;
@@ -133,15 +144,8 @@ TEST(SoundCaptures, may_have_lights_below_a_ceiling) {
   const SpotLight spot{{0, 2.9, 0}, {0, -1, 0}, 0.9, 10.0};
   const ShadowPlan plan = make_plan(camera, spot, {casters, floor}, options);
   ASSERT_EQ(plan.map_count, 1);
-  const auto box = [](const Box& b) {
-    return Json{{"min", {b.min.x, b.min.y, b.min.z}}, {"max", {b.max.x, b.max.y, b.max.z}}};
-  };
   Json c{{"format", "gnomon-capture/1"},
-         {"camera",
-          {{"view_from_world", numbers(view_from_world(camera))},
-           {"clip_from_view", numbers(clip_from_view(camera))},
-           {"width", 600},
-           {"height", 400}}},
+         {"camera", camera_of(camera)},
          {"lights",
           {{{"type", "spot"},
             {"position", {0, 2.9, 0}},
@@ -151,8 +155,8 @@ TEST(SoundCaptures, may_have_lights_below_a_ceiling) {
          {"bias", {{"texels", 0.5}, {"follows_plane", true}}},
          {"maps",
           {{{"clip_from_world", numbers(plan.map[0].clip_from_world)}, {"width", 1024}, {"height", 1024}}}},
-         {"receivers", {box(floor[0])}},
-         {"casters", {box(casters[0]), box(casters[1])}}};
+         {"receivers", {box_of(floor[0])}},
+         {"casters", {box_of(casters[0]), box_of(casters[1])}}};
   EXPECT_THAT(kinds(judged(c)), testing::IsEmpty());
 }
 
@@ -182,6 +186,28 @@ TEST(SoundCaptures, a_few_points_do_not_say_that_a_map_is_unseen) {
   for (int i = 0; i < 600; ++i) points.push_back({-20.0 + i % 40, 0.0, 20.0 + i / 40 % 15, 0.0, 1.0, 0.0});
   c["points"] = points;
   EXPECT_THAT(kinds(judged(c)), testing::Not(testing::Contains("map_unseen")));
+}
+
+TEST(SoundCaptures, may_have_a_stable_map_round_a_slender_view) {
+  // A telescope over the ground: of a square that the slice fits in from every direction, a strip is seen.
+  PlanOptions options;
+  options.fit = Fit::stable;
+  const std::vector<Box> ground{{{-200, -0.1, -200}, {200, 0, 200}}};
+  const Camera camera =
+      perspective_camera({0, 2, 0}, {0, -0.05, -1}, {0, 1, 0}, 0.025, 1.5, 1.0, 60.0, 600, 400);
+  const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.3, -1.0, 0.1}}, {ground, ground}, options);
+  ASSERT_EQ(plan.map_count, 1);
+  const Json c{{"format", "gnomon-capture/1"},
+               {"camera", camera_of(camera)},
+               {"lights", {{{"type", "directional"}, {"direction", {0.3, -1.0, 0.1}}}}},
+               {"bias", {{"texels", 0.5}, {"follows_plane", true}}},
+               {"maps",
+                {{{"clip_from_world", numbers(plan.map[0].clip_from_world)},
+                  {"width", plan.map[0].width},
+                  {"height", plan.map[0].height},
+                  {"depths", {plan.map[0].depth_begin, plan.map[0].depth_end}}}}},
+               {"receivers", {box_of(ground[0])}}};
+  EXPECT_THAT(kinds(judged(c)), testing::IsEmpty());
 }
 
 TEST(SoundCaptures, have_plans_beside_them_with_less_error) {
