@@ -297,7 +297,7 @@ export const structs = {
     },
   },
   shadow_picture: {
-    bytes: 32,
+    bytes: 40,
     fields: {
       size: [0, 'u32', 0],
       reserved: [4, 'u32', 0],
@@ -305,6 +305,7 @@ export const structs = {
       mask: [12, 'ptr', 0],
       view_depths: [16, 'ptr', 0],
       pixel_count: [24, 'i64', 0],
+      kernel_texels: [32, 'f64', 0],
     },
   },
   wrong_pixels: {

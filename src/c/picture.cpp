@@ -20,6 +20,12 @@ const char* to_picture(const gnomon_shadow_picture* from, ShadowPicture& to) noe
   return nullptr;
 }
 
+/// The picture is one that to_picture() takes.
+double kernel_of(const gnomon_shadow_picture& picture) noexcept {
+  gnomon_shadow_picture older;
+  return whole(picture, older).kernel_texels;
+}
+
 }  // namespace
 }  // namespace gnomon::c
 
@@ -37,7 +43,7 @@ int32_t gnomon_expected_error(const gnomon_plan* plan, const gnomon_shadow_pictu
   if (fault == nullptr && pixels == nullptr) fault = "pixels";
   if (fault != nullptr) return refuse(fault, invalid_field);
   place_origin(shadow.camera, p);
-  const ExpectedError found = expected_error(p, shadow);
+  const ExpectedError found = expected_error(p, shadow, kernel_of(*picture));
   *pixels = {found.wrong_pixels, found.counted_pixels, found.share()};
   return done(invalid_field);
 }

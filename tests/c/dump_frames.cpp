@@ -201,14 +201,17 @@ void write_picture(File& file, const Street& street, const gnomon_camera& camera
   picture.mask = mask.data();
   picture.view_depths = depths.data();
   picture.pixel_count = kWidth * kHeight;
-  gnomon_wrong_pixels wrong;
+  gnomon_wrong_pixels wrong, averaged;
   gnomon_expected_error(&found.plan, &picture, &wrong, nullptr);
+  picture.kernel_texels = 1.5;
+  gnomon_expected_error(&found.plan, &picture, &averaged, nullptr);
   std::vector<double> edges(3 * 200);
   int64_t written = 0;
   gnomon_shadow_edge_points(&picture, edges.data(), 200, &written, nullptr);
   file.list(mask);
   for (const float depth : depths) file.one(depth);
   file.one(wrong);
+  file.one(averaged);
   file.one(static_cast<std::uint32_t>(written));
   for (std::size_t i = 0; i < static_cast<std::size_t>(3 * written); ++i) file.one(edges[i]);
   std::printf("%.1f of %.0f pixels wrong, %d points of edges\n", wrong.wrong, wrong.counted,

@@ -62,7 +62,7 @@ struct Street {
 void expect_same(const Street& street, const ShadowPlan& plan) {
   gnomon_wrong_pixels pixels;
   ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &pixels, nullptr), GNOMON_OK);
-  const ExpectedError expected = expected_error(plan, street.shadow());
+  const ExpectedError expected = expected_error(plan, street.shadow(), street.picture.kernel_texels);
   EXPECT_EQ(std::memcmp(&pixels.wrong, &expected.wrong_pixels, sizeof(double)), 0);
   EXPECT_EQ(pixels.counted, expected.counted_pixels);
   EXPECT_EQ(pixels.share, expected.share());
@@ -80,6 +80,19 @@ TEST(PictureInC, plans_are_expected_to_get_the_pixels_of_cpp_wrong) {
       options.clip_space = kVulkan;
       expect_same(street, street.plan(options));
     }
+  }
+  // Kernels.
+  const ShadowPlan plan = street.plan({});
+  const double hard = expected_error(plan, street.shadow()).wrong_pixels;
+  for (const double kernel : {1.5, 4.0}) {
+    street.picture.kernel_texels = kernel;
+    expect_same(street, plan);
+    EXPECT_NE(expected_error(plan, street.shadow(), kernel).wrong_pixels, hard) << kernel;
+  }
+  for (const double kernel : {-1.0, std::numeric_limits<double>::quiet_NaN(), 0.0}) {
+    street.picture.kernel_texels = kernel;
+    expect_same(street, plan);
+    EXPECT_EQ(expected_error(plan, street.shadow(), kernel).wrong_pixels, hard) << kernel;
   }
   // Pixels of all kinds, drawn by lot.
   std::mt19937_64 random(4);

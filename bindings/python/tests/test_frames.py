@@ -99,7 +99,9 @@ def test_all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library
     count = file.count()
     assert count == camera.width * camera.height
     mask, depths = (file.numbers("f4", camera.height, camera.width) for _ in range(2))
-    assert bytes(file.struct("wrong_pixels")) == np.array(gnomon.expected_error(plan, camera, mask, depths)).tobytes()
+    for kernel in (0.0, 1.5):
+        wrong = gnomon.expected_error(plan, camera, mask, depths, kernel_texels=kernel)
+        assert bytes(file.struct("wrong_pixels")) == np.array(wrong).tobytes()
     edges = file.numbers("f8", file.count(), 3)
     assert gnomon.shadow_edge_points(camera, mask, depths, room=len(edges)).tobytes() == edges.tobytes()
     assert file.at == len(file.data)

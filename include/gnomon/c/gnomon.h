@@ -730,6 +730,9 @@ typedef struct gnomon_shadow_picture {
   /// Required; default NULL.
   const float* view_depths;
   int64_t pixel_count;  ///< entries of each: the camera's width times height
+  /// gnomon_expected_error alone reads it: half side of the box of texels whose comparisons the filter
+  /// averages. 0, the default, less, and not a number: one texel, hard comparison. More than 33 count as 33.
+  double kernel_texels;
 } gnomon_shadow_picture;
 /// Fills in defaults. `size`: sizeof *picture.
 GNOMON_EXPERIMENTAL int32_t gnomon_shadow_picture_default(gnomon_shadow_picture* picture, uint32_t size);
@@ -740,8 +743,8 @@ typedef struct gnomon_wrong_pixels {
   double counted;  ///< pixels that have a surface, and are lit or dark
   double share;    ///< wrong over counted, in 0..1; 0 where none counts
 } gnomon_wrong_pixels;
-/// Counts the pixels that hard comparison in the plan's maps will misclassify, without drawing them. Each
-/// pixel takes the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias
+/// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. Each pixel
+/// takes the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias
 /// do not count. Shadows narrower than a pixel count less than they should: the picture should be as fine as
 /// the texels. A plan without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure.
 /// Time grows with the pixels.

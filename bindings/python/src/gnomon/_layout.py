@@ -654,6 +654,7 @@ class shadow_picture(ctypes.Structure):
         ("mask", ctypes.c_void_p),
         ("view_depths", ctypes.c_void_p),
         ("pixel_count", ctypes.c_int64),
+        ("kernel_texels", ctypes.c_double),
     ]
     size: int
     reserved: int
@@ -661,9 +662,10 @@ class shadow_picture(ctypes.Structure):
     mask: Any
     view_depths: Any
     pixel_count: int
+    kernel_texels: float
 
 
-assert ctypes.sizeof(shadow_picture) == 40
+assert ctypes.sizeof(shadow_picture) == 48
 
 
 class wrong_pixels(ctypes.Structure):

@@ -37,14 +37,15 @@ def _picture(camera: Camera, mask: ArrayLike, view_depths: ArrayLike) -> tuple[A
     return struct, keep
 
 
-def expected_error(plan: Plan, camera: Camera, mask: ArrayLike, view_depths: ArrayLike) -> WrongPixels:
-    """Counts the pixels that hard comparison in the plan's maps will misclassify, without drawing them; also of foreign maps
+def expected_error(plan: Plan, camera: Camera, mask: ArrayLike, view_depths: ArrayLike, kernel_texels: float = 0.0) -> WrongPixels:
+    """Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them; also of foreign maps
     (Plan.foreign).
 
     mask: (height, width) float32 of the camera, first row on top: 1 lit .. 0 in shadow; negative, above 1 or not a number:
     does not count. It is a picture that is known: of rays, of other maps, of the last frame. view_depths: the same of the
     surfaces, world units; 0, less, infinite or not a number: no surface. float32 in C order is read where it lies. Each pixel
-    takes the shadow at the middle of its texel. Errors of the bias do not count.
+    takes the shadow at the middle of its texel. Errors of the bias do not count. kernel_texels: half side of the box of texels
+    whose comparisons a filter averages; 0: one texel, hard comparison.
 
     >>> camera = orthographic(position=(0, 10, 0), forward=(0, -1, 0), up=(0, 0, -1), height_world=10, aspect=1, far=20, width=64, height=64)
     >>> mask = np.tile(np.float32([1] * 21 + [0] * 43), (64, 1))
@@ -55,6 +56,7 @@ def expected_error(plan: Plan, camera: Camera, mask: ArrayLike, view_depths: Arr
     True
     """
     struct, _keep = _picture(camera, mask, view_depths)
+    struct.kernel_texels = float(kernel_texels)
     pixels = c.wrong_pixels()
     call("gnomon_expected_error", plan._struct, struct, pixels)
     return WrongPixels(pixels.wrong, pixels.counted, pixels.share)

@@ -57,8 +57,9 @@ impl ShadowPicture<'_> {
     }
 }
 
-/// Counts the pixels that hard comparison in the plan's maps will misclassify, without drawing them; also of foreign maps
+/// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them; also of foreign maps
 /// ([`Plan::foreign`]). Each pixel takes the shadow at the middle of its texel. Errors of the bias do not count.
+/// `kernel_texels`: half side of the box of texels whose comparisons a filter averages; 0: one texel, hard comparison.
 ///
 /// ```
 /// use gnomon::{expected_error, Camera, Light, PlanOptions, Scene, ShadowPicture, View};
@@ -71,14 +72,15 @@ impl ShadowPicture<'_> {
 ///     let mut options = PlanOptions::default();
 ///     (options.cascades, options.resolution_max_size) = (1, size);
 ///     let plan = gnomon::plan(&View::new(&camera), &Light::directional([0.0, -1.0, 0.0]), scene, &options, None)?;
-///     expected_error(&plan, picture).map(|pixels| pixels.share)
+///     expected_error(&plan, picture, 0.0).map(|pixels| pixels.share)
 /// };
 /// assert!(share(256)? < share(8)?);
 /// # Ok::<(), gnomon::Error>(())
 /// ```
-pub fn expected_error(plan: &Plan, picture: ShadowPicture<'_>) -> Result<WrongPixels> {
+pub fn expected_error(plan: &Plan, picture: ShadowPicture<'_>, kernel_texels: f64) -> Result<WrongPixels> {
     let (camera, mut field) = (picture.camera.to_c(), null());
-    let picture = picture.to_c(&camera)?;
+    let mut picture = picture.to_c(&camera)?;
+    picture.kernel_texels = kernel_texels;
     let mut pixels = WrongPixels { wrong: 0.0, counted: 0.0, share: 0.0 };
     let status = unsafe { gnomon_expected_error(&plan.to_c(), &picture, &mut pixels, &mut field) };
     check(status, field).map(|_| pixels)
