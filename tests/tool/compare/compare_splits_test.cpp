@@ -1,10 +1,24 @@
 // Does `gnomon compare` measure each split with what it gives to the plan?
 #include <gtest/gtest.h>
 
+#include <set>
+#include <string>
+
+#include "compare/technique_words.hpp"
 #include "small_sweep.hpp"
 
 namespace gnomon::test {
 namespace {
+
+TEST(Compare, takes_each_split_that_it_lists_and_no_other_name_of_one) {
+  std::set<std::string> taken;
+  for (const std::string& name : tool::split_names()) {
+    ASSERT_EQ(tool::read_splits("--splits", {name}).size(), 1u) << name;
+    EXPECT_TRUE(taken.insert(name).second) << name;
+  }
+  // `auto` divides by view depth.
+  EXPECT_THROW((void)tool::read_splits("--splits", {"view_depth"}), std::runtime_error);
+}
 
 TEST(Compare, plans_with_the_finest_map_and_with_what_the_frame_shows) {
   const TemporaryFolder folder;
