@@ -179,9 +179,11 @@ class BoxesOnRays {
       const std::size_t taken = std::min(number % kMost, count_[ray] - 1);
       const Through& box = box_[ray][taken];
       // A surface lies somewhere inside of its box: points on the boxes' sides were as often worse as better.
-      const double depth =
-          box.begin + spread(0.3819660112501051, static_cast<double>(number)) * (box.end - box.begin);
-      seen.point[seen.count++] = rays_.at(ray, depth);
+      // But round the eye it leaves room. Where points of a room came near, it had three times the least
+      // error.
+      const double nearest = max_of(box.begin, 0.5 * box.end);
+      const double share = spread(0.3819660112501051, static_cast<double>(number));
+      seen.point[seen.count++] = rays_.at(ray, nearest + share * (box.end - nearest));
     }
   }
 

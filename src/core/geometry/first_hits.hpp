@@ -25,7 +25,8 @@ struct SeenPoints {
 };
 
 /// A point on each ray of a fixed fan that meets a box between the near and the far plane: anywhere between
-/// both sides of one of the first six boxes. The same ones in any order of the boxes.
+/// both sides of one of the first six boxes, but no nearer than half the view depth of the farther side. The
+/// same ones in any order of the boxes.
 [[nodiscard]] SeenPoints first_hits(const Camera& camera, const CameraAxes& axes,
                                     const Boxes& boxes) noexcept;
 

@@ -89,18 +89,19 @@ TEST(FirstHits, are_no_farther_than_six_boxes_whatever_lies_behind) {
   for (const int rays : in_wall) EXPECT_GT(rays, 15);
 }
 
-TEST(FirstHits, of_a_box_round_the_eye_are_anywhere_inside) {
+TEST(FirstHits, of_a_box_round_the_eye_are_in_the_farther_half_of_each_ray) {
   const std::vector<Box> room = {{{-10, 0, -10}, {10, 6, 10}}};
   const Camera camera = street();
   const SeenPoints seen = hits(camera, room);
   ASSERT_GT(seen.count, 100u);
-  int nearer = 0;
+  int before_the_wall = 0;
   for (const glm::dvec3& p : seen.points()) {
     EXPECT_TRUE(touches(room[0], camera.position + p));
-    nearer += glm::length(p) < 4.0;
+    EXPECT_FALSE(touches(room[0], camera.position + 2.001 * p));
+    before_the_wall += touches(room[0], camera.position + 1.25 * p);
   }
-  EXPECT_GT(nearer, 15);
-  EXPECT_LT(nearer, 90);
+  EXPECT_GT(before_the_wall, 40);
+  EXPECT_LT(before_the_wall, 90);
 }
 
 TEST(FirstHits, do_not_depend_on_the_near_plane_before_the_boxes) {
