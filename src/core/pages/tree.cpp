@@ -266,10 +266,16 @@ std::size_t PageTree::choose(double price) noexcept {
   };
   std::sort(chosen.begin(), chosen.end(), [&](const Page& a, const Page& b) { return key(b) < key(a); });
   if (pages_ > chosen.size()) return pages_;
-  // Leaves may have opened the same page, where finer ones serve them no better.
-  const auto last = std::unique(chosen.begin(), chosen.end(),
-                                [&](const Page& a, const Page& b) { return key(a) == key(b); });
-  return static_cast<std::size_t>(last - chosen.begin());
+  // Leaves may have opened the same page, where finer ones serve them no better. Libraries sort equal ones in
+  // orders of their own.
+  std::size_t count = 0;
+  for (const Page& page : chosen) {
+    if (count > 0 && key(chosen[count - 1]) == key(page))
+      chosen[count - 1].points += page.points;
+    else
+      chosen[count++] = page;
+  }
+  return count;
 }
 
 }  // namespace gnomon
