@@ -149,9 +149,9 @@ struct PagePlan {
   std::array<PagePlaces, 6> places{};    ///< of the base, by ShadowMap::cascade of a level
   std::span<const Page> pages;           ///< resident pages, coarsest level first
   std::span<const std::uint32_t> table;  ///< hash table over the pages, see page_at; shaders read it as it is
-  double target_m =
-      0.0;  ///< error that the levels were chosen for: larger than requested where the pool
-            ///< is too small. Policy `picture` then has it in pages that weigh as much as the mean
+  /// Error that the levels were chosen for: larger than requested where the pool is too small. Policy
+  /// `picture` then has it in pages that weigh as much as the mean.
+  double target_m = 0.0;
   std::uint64_t points = 0;                   ///< visible points that pages serve
   std::uint64_t points_outside = 0;           ///< that lie beside all receivers or the light's range: lit
   std::uint64_t points_coarser = 0;           ///< left to a coarser level by PageOptions::share
