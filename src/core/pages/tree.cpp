@@ -228,7 +228,7 @@ void PageTree::open(Range range, int above) noexcept {
     child = first_child({child.last, range.last}, depth);
 }
 
-/// The page of this depth that holds all samples.
+/// The page of this depth that holds all samples. Half points are counted: one at an edge has two samples.
 void PageTree::open_page(const Range& range, int depth) noexcept {
   const std::uint64_t first = samples_[range.first].cell;
   const auto base = static_cast<std::uint32_t>(first >> (2 * kCellBits));
@@ -241,13 +241,13 @@ void PageTree::open_page(const Range& range, int depth) noexcept {
     const std::int64_t from_first = from_root + first_at(depth, first_of_root) - first_of_level;
     return static_cast<std::int32_t>(std::clamp(from_first, std::int64_t{0}, std::int64_t{count} - 1));
   };
-  std::size_t points[2] = {};
-  for (std::size_t i = range.first; i < range.last; ++i) ++points[samples_[i].at_edge];
-  const std::size_t all = points[0] * one_of_[0] + (points[1] + 1) / 2 * one_of_[1];
+  std::size_t halves = 0;
+  for (std::size_t i = range.first; i < range.last; ++i)
+    halves += samples_[i].at_edge ? one_of_[1] : 2 * one_of_[0];
   if (pages_ < c_.memory.pages.size())
     c_.memory.pages[pages_] = {of, cell(gathered_bits(place), root.first_x, grid.first_x, grid.columns),
                                cell(gathered_bits(place >> 1), root.first_y, grid.first_y, grid.rows), 0,
-                               static_cast<std::uint32_t>(all)};
+                               static_cast<std::uint32_t>(halves)};
   ++pages_;
 }
 
@@ -275,6 +275,7 @@ std::size_t PageTree::choose(double price) noexcept {
     else
       chosen[count++] = page;
   }
+  for (Page& page : chosen.first(count)) page.points = (page.points + 1) / 2;
   return count;
 }
 

@@ -165,6 +165,25 @@ TEST(Pages, picture_opens_pages_for_the_pixels_between_points_at_edges) {
   EXPECT_LT(sum(picture), 0.53 * sum(errors_beside(page_policies::edges)));
 }
 
+TEST(Pages, picture_counts_the_points_of_all_places_that_open_a_page) {
+  Street street;
+  street.feedback.assign(street.points.size(), 0);
+  street.options.policy = &page_policies::picture;
+  std::vector<std::byte> memory(page_memory(street.options.capacity, street.points.size()));
+  const PagePlan plan = street.plan(memory);
+  std::vector<std::uint32_t> served(plan.pages.size());
+  for (const glm::dvec3& point : street.points) {
+    const int page = page_serving(plan, point);
+    ASSERT_GE(page, 0);
+    ++served[static_cast<std::size_t>(page)];
+  }
+  // A few points lie in a page that others have opened, and would do with a coarser one.
+  std::size_t uncounted = 0;
+  for (std::size_t i = 0; i < served.size(); ++i)
+    uncounted += served[i] > plan.pages[i].points ? served[i] - plan.pages[i].points : 0;
+  EXPECT_LT(uncounted, street.points.size() / 100);
+}
+
 TEST(Pages, picture_gives_all_points_the_target_where_the_pool_suffices) {
   Street street;
   street.feedback.assign(street.points.size(), 0);
