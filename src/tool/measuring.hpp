@@ -23,7 +23,7 @@ struct Measuring {
   std::string animation;          ///< that scenes play, by name or number; empty: at rest
   int width = 480, height = 270;  ///< of a frame, pixels
   int frames = 4;                 ///< along the scene's camera path
-  int rounds = 5;                 ///< timings of each technique per frame
+  int rounds = 5;                 ///< timings of each technique per timed frame
   std::uint64_t max_triangles = LoadLimits{}.triangles;  ///< scenes of more are refused
   render::ContextKind context = render::ContextKind::automatic;
   std::string out;    ///< folder; empty: no files

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "budgets.hpp"
 #include "front_table.hpp"
@@ -42,8 +43,18 @@ std::vector<Row> rows_that_disagree() {
   return rows;
 }
 
+/// Each frame as a view of its own: through another camera.
+std::vector<Row> as_views(std::vector<Row> rows) {
+  for (Row& row : rows) {
+    row.camera = std::to_string(row.frame);
+    row.frame = 0;
+    row.frames = 1;
+  }
+  return rows;
+}
+
 TEST(Views, give_medians_with_intervals_and_count_the_views_that_say_so) {
-  std::vector<Row> rows = rows_that_disagree();
+  std::vector<Row> rows = as_views(rows_that_disagree());
   const Summary summary = summarize(rows);
   const ViewTable table = view_table(rows, summary);
   EXPECT_EQ(table.views, 10u);
@@ -61,10 +72,40 @@ TEST(Views, give_medians_with_intervals_and_count_the_views_that_say_so) {
   EXPECT_EQ(table.over("ratio", 1)->median, 1.5);
   // A view with few pixels is named and not counted.
   for (Row& row : rows)
-    if (row.frame == 4) row.errors.pixels = 143;
+    if (row.camera == "4") row.errors.pixels = 143;
   const ViewTable fewer = view_table(rows, summary);
   EXPECT_EQ(fewer.views, 9u);
   EXPECT_EQ(fewer.dropped, 1u);
+}
+
+TEST(Views, are_flights_whose_frames_weigh_by_their_pixels_and_of_which_some_are_timed) {
+  std::vector<Row> rows;
+  for (int frame = 0; frame < 3; ++frame) {
+    Row row = sample_row(0);
+    row.frame = frame;
+    row.frames = 3;
+    row.errors.false_lit = 0.01 * (frame + 1);
+    row.errors.false_shadow = 0.0;
+    row.errors.pixels = frame == 0 ? 3000 : frame == 1 ? 1000 : 143;
+    row.times = {};
+    if (frame == 1) row.times.total_ms = {8.0, 7.0, 9.0};
+    if (frame == 1) row.times.baseline_ms = row.times.baseline_again_ms = 4.0;
+    rows.push_back(row);
+  }
+  const Summary summary = summarize(rows);
+  const ViewTable table = view_table(rows, summary);
+  EXPECT_EQ(table.views, 1u);
+  EXPECT_EQ(table.dropped, 0u) << "the flight has frames that count";
+  EXPECT_NEAR(table.over("wrong", 0)->median, 0.0125, 1e-12);
+  EXPECT_EQ(table.over("total_ms", 0)->median, 8.0);
+  EXPECT_EQ(table.over("ratio", 0)->median, 2.0);
+  EXPECT_EQ(table.again.size(), 1u);
+  EXPECT_EQ(summary.cells[1][0].values[measure_index("total_ms")], 8.0);
+  EXPECT_EQ(summary.cells[1][0].values[measure_index("ratio")], 2.0);
+  // A frame that was not timed has no time of 0.
+  std::erase_if(rows, [](const Row& row) { return row.frame == 1; });
+  for (const char* measure : {"total_ms", "ratio", "plan_us", "depth_ms", "shade_ms"})
+    EXPECT_TRUE(std::isnan(summarize(rows).cells[1][0].values[measure_index(measure)])) << measure;
 }
 
 TEST(Views, go_by_misclassified_pixels_where_no_row_has_a_pixel_error) {
@@ -93,7 +134,7 @@ std::vector<Row> rows_of_budgets(const std::vector<double>& ms) {
 }
 
 TEST(Budgets, take_the_least_error_that_time_allows_and_name_what_is_as_good) {
-  const std::vector<Row> rows = rows_of_budgets({10.0, 12.0, 15.0, 20.0});
+  const std::vector<Row> rows = as_views(rows_of_budgets({10.0, 12.0, 15.0, 20.0}));
   const Summary summary = summarize(rows);
   const std::vector<BudgetChoice> choices = budget_choices(view_table(rows, summary), summary, "wrong");
   ASSERT_EQ(choices.size(), 3u) << "five percent for more time are no choice";
@@ -115,6 +156,7 @@ TEST(Budgets, are_those_of_the_upper_end_of_the_time_and_of_techniques_of_all_vi
   for (Row& row : rows)
     if (row.technique.cascades == 2) row.times.total_ms.median = row.frame < 4 ? 5.0 : 30.0;
   std::erase_if(rows, [](const Row& row) { return row.technique.cascades == 4 && row.frame == 3; });
+  rows = as_views(std::move(rows));
   const Summary summary = summarize(rows);
   const std::vector<BudgetChoice> choices = budget_choices(view_table(rows, summary), summary, "wrong");
   ASSERT_EQ(choices.size(), 2u);
@@ -123,7 +165,7 @@ TEST(Budgets, are_those_of_the_upper_end_of_the_time_and_of_techniques_of_all_vi
 }
 
 TEST(Budgets, stand_on_the_page_and_in_json_with_the_machine_and_its_noise) {
-  const Reported reported(rows_of_budgets({10.0, 12.0, 15.0, 20.0}));
+  const Reported reported(as_views(rows_of_budgets({10.0, 12.0, 15.0, 20.0})));
   for (const char* text : {"Which technique for which budget", "<b>8 of 8</b>", "less than a factor of 1.25",
                            "llvmpipe, some cpu, 2 cores, load 0.5 to 0.5."})
     EXPECT_NE(reported.page.find(text), std::string::npos) << text;
@@ -152,7 +194,7 @@ TEST(Ranks, show_where_two_errors_disagree) {
 }
 
 TEST(Page, has_views_ranks_and_their_files) {
-  const Reported reported(rows_that_disagree());
+  const Reported reported(as_views(rows_that_disagree()));
   for (const char* text : {"Over views", "In how many views", "<b>9 of 10</b>", "Places by each error",
                            "less than a factor of 1.05", "Questions and errors"})
     EXPECT_NE(reported.page.find(text), std::string::npos) << text;

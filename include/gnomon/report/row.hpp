@@ -61,6 +61,8 @@ struct Times {
   /// measured.
   double baseline_again_ms = 0.0;
   int rounds = 0;  ///< measured, warm-up not counted; 0: stated by an entry, or total_ms 0: not known
+  /// False for a frame that was not timed, and where an entry states no time.
+  [[nodiscard]] bool known() const noexcept { return total_ms.median > 0.0; }
   /// total over baseline; 0 where there is none.
   [[nodiscard]] double ratio() const noexcept {
     return baseline_ms > 0.0 ? total_ms.median / baseline_ms : 0.0;

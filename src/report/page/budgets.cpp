@@ -54,7 +54,7 @@ std::string noise_text(const std::vector<Row>& rows, const ViewTable& table) {
   std::string out;
   if (!table.again.empty())
     out +=
-        " The baseline was timed twice in the same rounds, as two techniques: in 95 % of the views the two "
+        " The baseline was timed twice in the same rounds, as two techniques: in 95 % of the frames the two "
         "times differ by less than a factor of " +
         short_number(table.noise()) + ". Budgets that are closer than that may be equal.";
   if (table.views < kFewestForSign)

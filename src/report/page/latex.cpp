@@ -128,7 +128,7 @@ std::string latex_method(const std::vector<Row>& rows, const Summary& summary) {
          counted(table.views, "view") + " of " + counted(scenes.size(), "scene") + ", at " + list_of(sizes) +
          " pixels. ";
   if (table.dropped > 0)
-    out += "Not counted were " + counted(table.dropped, "view") + " of fewer than " +
+    out += "Not counted were " + counted(table.dropped, "view") + " without a frame of " +
            std::to_string(kFewestPixels) + " evaluated pixels. ";
   out += "Light: " + list_of(lights) + ".\n\n";
   out +=
@@ -143,14 +143,15 @@ std::string latex_method(const std::vector<Row>& rows, const Summary& summary) {
       "than the "
       "light over them, between two frames of a viewer at 60\\,Hz.\n\n";
   out +=
-      "Medians are over views; their intervals are percentile bootstraps over the views at 95\\,\\%. Pairs "
+      "Medians are over views, each the mean of its frames; their intervals are percentile bootstraps over "
+      "the views at 95\\,\\%. Pairs "
       "of "
       "techniques are compared by exact sign tests, without correction for the number of pairs. ";
   out += "Times are wall clock of " + (rounds.empty() ? std::string("no rounds") : list_of(rounds)) +
          " in random order after a warm-up, after the driver had finished. ";
   if (!table.again.empty())
     out += "The baseline, measured twice as two techniques, differs by less than a factor of " +
-           short_number(table.noise()) + " in 95\\,\\% of the views. ";
+           short_number(table.noise()) + " in 95\\,\\% of the frames. ";
   if (entries)
     out += "Entries of others were measured by the same code; times of masks are as stated by them. ";
   return out + "Machine: " + list_of(machines) + ".\n";

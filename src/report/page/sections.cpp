@@ -267,7 +267,8 @@ std::string section_method(const PageInput& input) {
         std::to_string(row.width) + "x" + std::to_string(row.height) + " pixels, " +
         std::to_string(row.frames) + " frames, " + row.light + " at " +
         short_number(row.light_elevation_deg) + " degrees elevation and " +
-        short_number(row.light_azimuth_deg) + " azimuth, " + std::to_string(row.times.rounds) + " rounds" +
+        short_number(row.light_azimuth_deg) + " azimuth, " +
+        (row.times.rounds > 0 ? std::to_string(row.times.rounds) + " rounds" : "not timed") +
         (row.camera.empty() ? "" : ", camera " + row.camera) +
         (row.edits.empty() ? "" : ", scenes with " + row.edits) +
         (row.animation.empty() ? "" : ", animation '" + row.animation + "' plays in " + row.scene));

@@ -80,6 +80,10 @@ Cell all_scenes(const std::vector<std::vector<Cell>>& cells, std::size_t techniq
 double of_maps(const Row& row, double value) {
   return row.is_masks() ? kNotMeasured : value;
 }
+/// A part of the time, where maps were timed.
+double of_time(const Row& row, double value) {
+  return row.times.known() ? of_maps(row, value) : kNotMeasured;
+}
 /// The value where the filter's kernel is known.
 double of_kernel(const Row& row, double value) {
   return row.truth == "none" ? kNotMeasured : value;
@@ -143,22 +147,21 @@ const std::vector<Measure>& measures() {
       {"share_undersampled", "share of pixels with m > 1", "%", "m > 1", false,
        [](const Row& r) { return of_maps(r, r.aliasing.share_undersampled); }},
       {"total_ms", "shadow time per frame", "ms", "time, ms", true,
-       [](const Row& r) {
-         return r.is_masks() && r.times.total_ms.median == 0.0 ? kNotMeasured : r.times.total_ms.median;
-       }},
+       [](const Row& r) { return r.times.known() ? r.times.total_ms.median : kNotMeasured; }},
       {"ratio", "time relative to one unwarped map with hard shadows", "", "x baseline", true,
-       [](const Row& r) { return of_maps(r, r.times.ratio()); }},
+       [](const Row& r) { return of_time(r, r.times.ratio()); }},
       {"plan_us", "planning", "\xC2\xB5s", "plan, \xC2\xB5s", true,
        // The maps of a capture were planned elsewhere.
        [](const Row& r) {
-         return r.technique.is_given() ? kNotMeasured : r.times.plan_ns.median * kMicrosecondsPerNanosecond;
+         return r.technique.is_given() ? kNotMeasured
+                                       : of_time(r, r.times.plan_ns.median * kMicrosecondsPerNanosecond);
        }},
       {"depth_ms", "drawing depths", "ms", "depth, ms", true,
-       [](const Row& r) { return of_maps(r, r.times.depth_ms.median); }},
+       [](const Row& r) { return of_time(r, r.times.depth_ms.median); }},
       {"prefilter_ms", "prefilter", "ms", "prefilter, ms", true,
-       [](const Row& r) { return of_maps(r, r.times.prefilter_ms.median); }},
+       [](const Row& r) { return of_time(r, r.times.prefilter_ms.median); }},
       {"shade_ms", "look-up", "ms", "look-up, ms", true,
-       [](const Row& r) { return of_maps(r, r.times.shade_ms.median); }},
+       [](const Row& r) { return of_time(r, r.times.shade_ms.median); }},
       {"draws", "draw calls", "", "draws", true,
        [](const Row& r) { return of_maps(r, static_cast<double>(r.costs.draws)); }},
       {"triangles", "triangles drawn", "", "triangles", true,

@@ -124,11 +124,14 @@ double ViewTable::noise() const {
 ViewTable view_table(const std::vector<Row>& rows, const Summary& summary) {
   ViewTable table;
   std::map<std::string, std::size_t> places;
-  std::set<std::string> dropped;
+  std::set<std::string> dropped, frames;
   for (auto& of_measure : table.values) of_measure.resize(summary.techniques.size());
+  auto weights = table.values;
   for (const Row& row : rows) {
     Row view = row;
     view.technique = {};
+    const std::string frame = view.key();
+    view.frame = 0;
     const std::string key = view.key();
     if (row.errors.pixels < kFewestPixels) {
       dropped.insert(key);
@@ -136,16 +139,33 @@ ViewTable view_table(const std::vector<Row>& rows, const Summary& summary) {
     }
     const auto [place, is_new] = places.try_emplace(key, places.size());
     if (is_new) {
-      for (auto& of_measure : table.values)
-        for (std::vector<double>& values : of_measure) values.push_back(kNone);
-      if (row.times.baseline_again_ms > 0.0 && row.times.baseline_ms > 0.0)
-        table.again.push_back(row.times.baseline_ms / row.times.baseline_again_ms);
+      for (auto* const all : {&table.values, &weights}) {
+        for (auto& of_measure : *all)
+          for (std::vector<double>& values : of_measure) values.push_back(0.0);
+      }
     }
+    if (frames.insert(frame).second && row.times.baseline_again_ms > 0.0 && row.times.baseline_ms > 0.0)
+      table.again.push_back(row.times.baseline_ms / row.times.baseline_again_ms);
     const auto technique = static_cast<std::size_t>(
         std::find(summary.techniques.begin(), summary.techniques.end(), row.technique) -
         summary.techniques.begin());
-    for (std::size_t m = 0; m < kOverViews.size(); ++m)
-      table.values[m][technique][place->second] = measures()[measure_index(kOverViews[m])].of(row);
+    for (std::size_t m = 0; m < kOverViews.size(); ++m) {
+      const Measure& measure = measures()[measure_index(kOverViews[m])];
+      const double value = measure.of(row);
+      if (!std::isfinite(value)) continue;
+      const double weight = measure.is_cost ? 1.0 : static_cast<double>(row.errors.pixels);
+      table.values[m][technique][place->second] += weight * value;
+      weights[m][technique][place->second] += weight;
+    }
+  }
+  for (std::size_t m = 0; m < kOverViews.size(); ++m) {
+    for (std::size_t t = 0; t < summary.techniques.size(); ++t) {
+      for (std::size_t v = 0; v < places.size(); ++v) {
+        double& value = table.values[m][t][v];
+        const double weight = weights[m][t][v];
+        value = weight > 0.0 ? value / weight : kNone;
+      }
+    }
   }
   table.views = places.size();
   for (const auto& [key, place] : places) dropped.erase(key);
@@ -208,15 +228,16 @@ Chart view_chart(const ViewTable& table, const Summary& summary) {
 std::string view_part(const std::vector<Row>& rows, const Summary& summary) {
   const ViewTable table = view_table(rows, summary);
   if (table.views < 2) return {};
-  std::string out = "<h3>Over views</h3>\n<p class=\"note\">" + counted(table.views, "view") +
-                    ": one frame of one scene each. Medians, with the interval that a bootstrap over the "
-                    "views gives them at 95 %.";
+  std::string out =
+      "<h3>Over views</h3>\n<p class=\"note\">" + counted(table.views, "view") +
+      ": one flight through one scene each, the mean of its frames. Medians, with the interval that a "
+      "bootstrap over the views gives them at 95 %.";
   if (table.dropped > 0)
-    out += " Not among them: " + counted(table.dropped, "view") + " of fewer than " +
+    out += " Not among them: " + counted(table.dropped, "view") + " without a frame of " +
            std::to_string(kFewestPixels) + " evaluated pixels.";
   if (!table.again.empty())
     out +=
-        " The baseline was measured twice in the same rounds, as two techniques: in 95 % of the views the "
+        " The baseline was measured twice in the same rounds, as two techniques: in 95 % of the frames the "
         "two times differ by less than a factor of " +
         short_number(table.noise()) + ", between the dashed lines. Smaller differences in time are noise.";
   return out + "</p>\n<figure>" + view_chart(table, summary).embedded("views") + "</figure>\n" +

@@ -24,14 +24,16 @@ inline constexpr double kSure = 0.05;
 /// "1.2 % (1.1 to 1.4)".
 [[nodiscard]] std::string with_interval(const Measure& measure, const Estimate& e);
 
-/// A view is one frame of one scene under one light: all that techniques share.
+/// A view is a flight through one scene under one light, or its only frame: frames of one flight are too
+/// alike to count each for itself. Its errors are means of the frames by their pixels, its times plain means.
+/// Frames of fewer than kFewestPixels evaluated pixels do not count.
 struct ViewTable {
   std::size_t views = 0;    ///< that count
-  std::size_t dropped = 0;  ///< of fewer than kFewestPixels evaluated pixels
+  std::size_t dropped = 0;  ///< without a frame that counts
   std::string error;  ///< key that techniques are compared by: pixel_error, or wrong where that is missing
   /// [measure of kOverViews][technique of the summary][view]; not a number where it was not measured.
   std::array<std::vector<std::vector<double>>, kOverViews.size()> values;
-  /// Median time of the baseline over that of the same baseline once more, in the rounds of each view.
+  /// Median time of the baseline over that of the same baseline once more, in the rounds of each timed frame.
   std::vector<double> again;
 
   /// Median over the views with its interval; nothing where no view has it.
@@ -40,7 +42,7 @@ struct ViewTable {
   [[nodiscard]] bool everywhere(std::string_view measure, std::size_t technique) const;
   /// In how many views the first has the smaller value.
   [[nodiscard]] SignTest compared(std::string_view measure, std::size_t first, std::size_t second) const;
-  /// Times of the same technique differ by less than this factor in 95 % of the views; 1: not measured.
+  /// Times of the same technique differ by less than this factor in 95 % of the frames; 1: not measured.
   [[nodiscard]] double noise() const;
 };
 [[nodiscard]] ViewTable view_table(const std::vector<Row>& rows, const Summary& summary);

@@ -132,6 +132,7 @@ std::vector<View> views_of(const std::vector<report::Row>& rows) {
   for (const report::Row& row : rows) {
     if (row.technique.filter.starts_with(kIrregular)) continue;  // no model predicts it: it reads no map
     if (row.technique.is_given()) continue;                      // planned by others
+    if (!row.times.known()) continue;                            // of a frame that was not timed
     // Rows do not hold what the files of a path and of shadow proxies do.
     if (!row.camera.empty() || !row.edits.empty()) continue;
     const std::string name =

@@ -232,6 +232,10 @@ class Run {
 
   /// Errors of a row weigh as much as its rounds.
   [[nodiscard]] static int steps_of_errors(const Sweep& sweep) { return sweep.rounds + 1; }
+  /// The same of its times: as often as rounds, and once to warm up.
+  [[nodiscard]] static int steps_of_times(const Sweep& sweep, int frame) {
+    return sweep.times(frame) ? sweep.rounds + 1 : 0;
+  }
 
   /// Sums up what `of_frame` makes of each sweep and the rows of each of its frames.
   template <class OfFrame>
@@ -240,17 +244,17 @@ class Run {
     for (const Part& part : parts_) {
       for (std::size_t scene = 0; scene < part.sweep.scenes.size(); ++scene) {
         for (int frame = 0; frame < part.sweep.frames; ++frame)
-          sum += of_frame(part.sweep, static_cast<long long>(tasks_in(part, scene, frame).size()));
+          sum += of_frame(part.sweep, frame, static_cast<long long>(tasks_in(part, scene, frame).size()));
       }
     }
     return sum;
   }
   [[nodiscard]] long long rows_in_all() const {
-    return sum_over_frames([](const Sweep&, long long rows) { return rows; });
+    return sum_over_frames([](const Sweep&, int, long long rows) { return rows; });
   }
   [[nodiscard]] long long steps_in_all() const {
-    return sum_over_frames([](const Sweep& sweep, long long rows) {
-      return rows > 0 ? (2 * rows + 2) * steps_of_errors(sweep) : 0;
+    return sum_over_frames([](const Sweep& sweep, int frame, long long rows) {
+      return rows > 0 ? rows * steps_of_errors(sweep) + (rows + 2) * steps_of_times(sweep, frame) : 0;
     });
   }
 
@@ -289,7 +293,7 @@ class Run {
       }
       const auto refused = [&](const Task& task) { return refused_here_.contains(task.entry); };
       step(static_cast<long long>(std::count_if(tasks.begin(), tasks.end(), refused)) *
-           (steps_of_errors(part.sweep) + part.sweep.rounds + 1));
+           (steps_of_errors(part.sweep) + steps_of_times(part.sweep, frame)));
       std::erase_if(tasks, refused);
       if (tasks.empty()) continue;
       one_frame(part, *stage, scene, frame, tasks);
@@ -320,7 +324,7 @@ class Run {
       masks.emplace_back();
       if (entry.given != nullptr) {
         measure_given(truth, *entry.given, task.row, masks.back());
-        step(steps_of_errors(sweep) + sweep.rounds + 1);
+        step(steps_of_errors(sweep) + steps_of_times(sweep, frame));
         continue;
       }
       entries.push_back(&entry);
@@ -331,8 +335,9 @@ class Run {
         task.row.pictures = write_pictures(sweep.out, sweep.first_scene + scene, task.entry, truth, drawn);
       step(steps_of_errors(sweep));
     }
-    const std::vector<report::Times> times =
-        measure_times(stage, truth.camera, entries, sweep.baseline, sweep.rounds, [this] { step(1); });
+    std::vector<report::Times> times(entries.size());
+    if (sweep.times(frame))
+      times = measure_times(stage, truth.camera, entries, sweep.baseline, sweep.rounds, [this] { step(1); });
     std::size_t timed = 0;
     for (std::size_t i = 0; i < tasks.size(); ++i) {
       const bool is_given = sweep.entries[tasks[i].entry].given != nullptr;

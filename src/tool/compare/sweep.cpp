@@ -411,6 +411,7 @@ Sweep make_sweep(const SweepRequest& request) {
   Sweep sweep;
   static_cast<Measuring&>(sweep) = request;
   sweep.pixel_samples = request.pixel_samples;
+  sweep.timed_frames = request.timed_frames;
   sweep.local_lights = request.local_lights;
   sweep.local_light = request.local_light;
   check_camera(request.camera);

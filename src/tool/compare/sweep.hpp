@@ -34,6 +34,7 @@ struct SweepRequest : Measuring {
   bool visible_depths = false, visible_points = false;  ///< plan with what a frame shows
   render::MapPasses map_passes = render::MapPasses::automatic;
   int pixel_samples = 0;  ///< rays through each pixel, for errors over whole pixels; 0: none
+  int timed_frames = 0;   ///< of the frames, evenly spread, that are timed; 0: each
   int local_lights = 0;   ///< over the scene, each measured alone; 0: the one placed
   int local_light = 0;    ///< index of the one that this sweep measures
 };
@@ -74,11 +75,19 @@ struct Sweep : Measuring {
   std::string camera_text;                ///< of the camera's words, for rows
   std::string edit_text;                  ///< of the scenes' edits, the same
   int pixel_samples = 0;                  ///< rays through each pixel; 0: none
+  int timed_frames = 0;                   ///< as in the request
   int local_lights = 0, local_light = 0;  ///< as in the request
   std::vector<Camera> cameras;            ///< of a capture, in place of the scenes' paths; empty: none
   std::string view;                       ///< name in a study, for people; empty: none
   std::uint64_t first_index = 0;          ///< of its rows, where it is part of a study
   std::size_t first_scene = 0;            ///< number of its first scene there
+
+  /// True for a frame that is timed, the first among them.
+  [[nodiscard]] bool times(int frame) const noexcept {
+    if (timed_frames == 0 || timed_frames >= frames || frame == 0) return true;
+    const auto due = [&](int f) { return static_cast<long long>(f) * timed_frames / frames; };
+    return due(frame) != due(frame - 1);
+  }
 
   /// Place of a row in the whole sweep.
   [[nodiscard]] std::uint64_t index(std::size_t scene, int frame, std::size_t entry) const noexcept {

@@ -145,6 +145,19 @@ TEST(Compare, does_not_write_over_results_unasked) {
   EXPECT_EQ(report::read_rows(whole()).size(), kSmallRows);
 }
 
+TEST(Compare, frames_that_are_not_timed_have_the_same_errors_and_no_time) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon(small_sweep(folder.path(), {"--timed-frames", "1"}));
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> timed = report::read_rows(whole()), rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), kSmallRows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(without_times(rows[i]), without_times(timed[i]));
+    EXPECT_EQ(rows[i].times.known(), rows[i].frame == 0) << i;
+    EXPECT_EQ(rows[i].times.rounds > 0, rows[i].frame == 0) << i;
+  }
+}
+
 TEST(Compare, a_finished_sweep_that_is_resumed_measures_nothing) {
   const std::vector<report::Row> before = report::read_rows(whole());
   EXPECT_EQ(run_gnomon(small_sweep(whole(), {"--resume"})).exit_code, 0);
