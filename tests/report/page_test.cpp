@@ -222,6 +222,14 @@ TEST(Expected, agrees_as_far_as_ratios_and_ranks_do) {
   EXPECT_EQ(off.views, 1u);
   EXPECT_EQ(off.within, 0.8);
   EXPECT_NEAR(off.correlation, -0.2, 1e-12);
+  // Nothing was expected where something is wrong: a miss, without a logarithm.
+  std::vector<Row> none = expected_rows(0.9);
+  none[0].expected_wrong = 0.0;
+  const ExpectedCheck missed = check_expected(none);
+  EXPECT_EQ(missed.rows, 8u);
+  EXPECT_EQ(missed.without, 1u);
+  EXPECT_EQ(missed.within, 7.0 / 8.0);
+  EXPECT_NEAR(missed.ratio, 0.9, 1e-12);
   EXPECT_EQ(check_expected({}).rows, 0u);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gnomon/report/statistics.hpp"
+#include "summary.hpp"
 #include "text.hpp"
 
 namespace gnomon::report {
@@ -16,8 +17,13 @@ double wrong_of(const Row& row) {
 }
 
 bool counts(const Row& row) {
-  return row.technique.filter == "hard" && row.expected_wrong && *row.expected_wrong > 0.0 &&
+  return row.technique.filter == "hard" && row.expected_wrong &&
          wrong_of(row) * static_cast<double>(row.errors.pixels) >= kCountedPixels;
+}
+
+/// True for a row that has a place among logarithms.
+bool expects_some(const Row& row) {
+  return counts(row) && *row.expected_wrong > 0.0;
 }
 
 }  // namespace
@@ -28,8 +34,9 @@ ExpectedCheck check_expected(const std::vector<Row>& rows) {
   std::vector<double> ratios;
   for (const Row& row : rows) {
     if (!counts(row)) continue;
+    ++check.rows;
     const double ratio = *row.expected_wrong / wrong_of(row);
-    ratios.push_back(ratio);
+    if (ratio > 0.0) ratios.push_back(ratio);
     if (ratio < kAlike && ratio > 1.0 / kAlike) check.within += 1.0;
     Row view = row;
     view.technique = {};
@@ -37,9 +44,9 @@ ExpectedCheck check_expected(const std::vector<Row>& rows) {
     expected.push_back(*row.expected_wrong);
     measured.push_back(wrong_of(row));
   }
-  check.rows = ratios.size();
-  if (ratios.empty()) return check;
-  check.within /= static_cast<double>(ratios.size());
+  if (check.rows == 0) return check;
+  check.without = check.rows - ratios.size();
+  check.within /= static_cast<double>(check.rows);
   check.ratio = geometric_mean(ratios, 1e-12);
   for (const auto& [key, view] : views) {
     const double correlation = rank_correlation(view.first, view.second);
@@ -56,7 +63,7 @@ std::optional<Chart> expected_chart(const std::vector<Row>& rows) {
   std::vector<double> values;
   std::vector<std::string> scenes;
   for (const Row& row : rows) {
-    if (!counts(row)) continue;
+    if (!expects_some(row)) continue;
     values.push_back(kPercent * wrong_of(row));
     values.push_back(kPercent * *row.expected_wrong);
   }
@@ -67,17 +74,19 @@ std::optional<Chart> expected_chart(const std::vector<Row>& rows) {
   Chart chart("Error expected and measured", measured, expected);
   chart.line({{measured.low, measured.low}, {measured.high, measured.high}}, 0, "front", "as expected");
   for (const Row& row : rows) {
-    if (!counts(row)) continue;
+    if (!expects_some(row)) continue;
     std::size_t scene = 0;
     while (scene < scenes.size() && scenes[scene] != row.scene) ++scene;
     if (scene == scenes.size()) scenes.push_back(row.scene);
     const Point at{kPercent * wrong_of(row), kPercent * *row.expected_wrong};
     chart.mark(at, scene, scene / kColors,
-               row.scene + " frame " + std::to_string(row.frame) + ", " + row.technique.name() +
-                   ": measured " + short_number(at.x) + " %, expected " + short_number(at.y) + " %",
+               short_scene_name(row.scene) + " frame " + std::to_string(row.frame) + ", " +
+                   row.technique.name() + ": measured " + short_number(at.x) + " %, expected " +
+                   short_number(at.y) + " %",
                scene);
   }
-  for (std::size_t scene = 0; scene < scenes.size(); ++scene) chart.legend_color(scenes[scene], scene);
+  for (std::size_t scene = 0; scene < scenes.size(); ++scene)
+    chart.legend_color(short_scene_name(scenes[scene]), scene);
   return chart;
 }
 
@@ -90,6 +99,9 @@ std::string expected_part(const std::vector<Row>& rows) {
       counted(check.rows, "row") + " of hard comparison with at least " + short_number(kCountedPixels) +
       " misclassified pixels: " + short_number(100.0 * check.within) + " % are expected within a factor of " +
       short_number(kAlike) + ", geometric mean of expected over measured " + short_number(check.ratio) + ".";
+  if (check.without > 0)
+    out +=
+        " " + counted(check.without, "row") + " without an expected one: within no factor, and in no mean.";
   if (check.views > 0)
     out += " Rank correlation over the settings of a view, mean of " + counted(check.views, "view") + ": " +
            short_number(check.correlation) + ".";

@@ -10,11 +10,12 @@
 
 namespace gnomon::report {
 
-/// Over the rows of hard comparison that were expected to misclassify some pixels and did.
+/// Over the rows of hard comparison whose error was expected.
 struct ExpectedCheck {
   std::size_t rows = 0;      ///< with at least kCountedPixels misclassified
+  std::size_t without = 0;   ///< of them, that were expected to misclassify none
   double within = 0.0;       ///< share of them that are expected within a factor of kAlike
-  double ratio = 0.0;        ///< geometric mean of expected over measured
+  double ratio = 0.0;        ///< geometric mean of expected over measured, where some were expected
   std::size_t views = 0;     ///< frames of a scene with at least kCountedRows of them
   double correlation = 0.0;  ///< mean over the views of the rank correlation of expected and measured
 };
