@@ -18,13 +18,7 @@ float compare_box(sampler2DArray depth_map, ShadowLookup at) {
       vec2 weight_x = clamp(min(vec2(high.x), vec2(x + 1, x + 2)) - max(vec2(low.x), vec2(x, x + 1)), 0.0, 1.0);
       vec2 corner = vec2(x + 1, y + 1);  // shared by the four texels
       vec4 stored = depth_of_texel(textureGather(depth_map, vec3((own + corner) / at.layer_size, at.layer)));
-      float middle = at.depth + dot(at.depth_gradient, corner - part);
-      vec2 half_step = 0.5 * at.depth_gradient;
-      // textureGather's order: (left, top), (right, top), (right, bottom), (left, bottom); top is the higher row.
-      vec4 depth = middle + vec4(-half_step.x + half_step.y, half_step.x + half_step.y, half_step.x - half_step.y,
-                                 -half_step.x - half_step.y);
-      depth = min(depth, 1.0);  // the plane may go on behind the map's far plane, where nothing is drawn: lit
-      sum += dot(weight_x.xyyx * weight_y.yyxx, vec4(lessThanEqual(depth, stored)));
+      sum += dot(weight_x.xyyx * weight_y.yyxx, vec4(lessThanEqual(plane_depths(at, corner - part), stored)));
     }
   }
   return sum / (4.0 * at.box.x * at.box.y);
@@ -41,7 +35,8 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
     if (max(at.box.x, at.box.y) > 0.5) return compare_box(depth_map, at);
     // One depth for four texels, each up to a texel away: off the plane by as much, for the bias covers half a texel of
     // the surface's slope and none of the slant that a warp adds.
-    float off_plane = abs(at.depth_gradient.x) + abs(at.depth_gradient.y);
+    vec2 farthest = 1.0 + max(beyond_piece(at, vec2(1.0)), -beyond_piece(at, vec2(-1.0)));
+    float off_plane = abs(at.depth_gradient.x) * farthest.x + abs(at.depth_gradient.y) * farthest.y;
     return texture(compare_map, vec4(at.texel / at.layer_size, at.layer, texel_of_depth(min(at.depth - off_plane, 1.0))));
   }
   // Stretched along the map's axes to the pixel where it is narrower.

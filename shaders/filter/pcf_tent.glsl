@@ -17,10 +17,6 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
   half_base = max(half_base, kBaseOfBox * at.pixel);
   vec2 own = floor(at.texel), part = at.texel - own;
   ivec2 first = ivec2(floor(part - half_base + 0.5)), last = ivec2(ceil(part + half_base - 0.5)) - 1;
-  vec2 half_step = 0.5 * at.depth_gradient;
-  // textureGather's order: (left, top), (right, top), (right, bottom), (left, bottom); top is the higher row.
-  vec4 to_texels = vec4(-half_step.x + half_step.y, half_step.x + half_step.y, half_step.x - half_step.y,
-                        -half_step.x - half_step.y);
   float sum = 0.0, weights = 0.0;
   for (int y = first.y; y <= last.y; y += 2) {
     vec2 weight_y = tent_heights(float(y), part.y, half_base.y);
@@ -28,10 +24,8 @@ float shadow_visibility(sampler2DArrayShadow compare_map, sampler2DArray depth_m
       vec2 weight_x = tent_heights(float(x), part.x, half_base.x);
       vec2 corner = vec2(x + 1, y + 1);  // shared by the four texels
       vec4 stored = depth_of_texel(textureGather(depth_map, vec3((own + corner) / at.layer_size, at.layer)));
-      // The plane may go on behind the map's far plane, where nothing is drawn: lit.
-      vec4 depth = min(at.depth + dot(at.depth_gradient, corner - part) + to_texels, 1.0);
       vec4 weight = weight_x.xyyx * weight_y.yyxx;
-      sum += dot(weight, vec4(lessThanEqual(depth, stored)));
+      sum += dot(weight, vec4(lessThanEqual(plane_depths(at, corner - part), stored)));
       weights += dot(weight, vec4(1.0));
     }
   }

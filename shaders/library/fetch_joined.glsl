@@ -2,6 +2,7 @@
 // are mip-maps. The filter's file is included before this one.
 #ifndef GNOMON_LIBRARY_FETCH_JOINED_GLSL
 #define GNOMON_LIBRARY_FETCH_JOINED_GLSL
+#include "library/compare.glsl"
 #include "library/footprint.glsl"
 
 // Texels are read at their centres, by place: software renderers take one level for four neighbouring pixels, and a texel
@@ -57,7 +58,7 @@ float visibility_2x2(sampler2DArray stored[GNOMON_SHADOW_VECTORS], vec3 place, i
       texel_at.v[i] = textureLod(stored[i], vec3(centre / size, place.z), float(level));
     }
     ShadowLookup there = at;
-    there.depth = min(at.depth + dot(at.depth_gradient, centre / size * at.layer_size - at.texel), 1.0);
+    there.depth = plane_depth(at, centre / size * at.layer_size - at.texel);
     lit += weight.x * weight.y * shadow_visibility(texel_at, depth_map, depth_max, there, options);
   }
   return lit;

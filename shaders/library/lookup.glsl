@@ -12,7 +12,9 @@ struct ShadowLookup {
   float layer;
   float depth_curve;      // map depths are read through linear_depth with it; 0: as they are
   float depth;            // of the receiver, 0 near the light .. 1, bias taken off
-  vec2 depth_gradient;    // change of the receiver plane's depth per texel
+  vec2 depth_gradient;    // change of the receiver plane's depth per texel of the point's own lengths
+  vec4 ends;              // offsets, texels, beyond which texels have other lengths: xy below the point, zw above
+  vec4 longer;            // of those texels over the point's own, less 1; 0: all are alike
   vec2 layer_size;        // texels of a layer along x and y
   vec2 box;               // half sides of the kernel as a box, texels
   mat2 disc;              // the kernel as an ellipse: texels from the unit disc

@@ -123,6 +123,8 @@ ShadowLookup shadow_lookup(ShadowMap map, float layer, vec2 layer_size, ShadowSu
   at.layer_size = layer_size;
   at.depth = p.ndc.z - along_light * bias_world - kDepthRounding;
   at.depth_gradient = vec2(dot(p.d_depth, side_x), dot(p.d_depth, side_y)) + along_light * rise;
+  at.ends = p.ends;
+  at.longer = p.longer;
   vec3 a, b;
   axes_across(light, a, b);
   at.texels_per_world =

@@ -24,6 +24,7 @@ struct MapPoint {
   vec3 d_texel_x;  // gradients over the position: of the texel coordinates ...
   vec3 d_texel_y;
   vec3 d_depth;    // ... and of the depth
+  vec4 ends, longer;  // as in ShapedPoint
 };
 
 vec3 matrix_row(mat4 m, int i) { return vec3(m[0][i], m[1][i], m[2][i]); }
@@ -36,6 +37,8 @@ MapPoint map_point(ShadowMap map, vec3 position) {
   p.ndc = h.xyz / h.w;
   ShapedPoint at = shaped_point(map.shape, map.interval_size.zw, p.ndc.xy);
   p.texel = at.texel;
+  p.ends = at.ends;
+  p.longer = at.longer;
   mat2 d = at.texel_from_ndc / h.w;
   vec3 w_row = matrix_row(m, 3);
   vec3 over_x = matrix_row(m, 0) - p.ndc.x * w_row, over_y = matrix_row(m, 1) - p.ndc.y * w_row;

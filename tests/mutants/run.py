@@ -16,7 +16,7 @@ import time
 # The pinned hash of all plans would notice any change of a bit, and say nothing of what the other tests are worth.
 NOT_THE_HASH = "--gtest_filter=-PlanHash.*"
 DRAWN = ["filter_fit_test", "render_pages_test", "render_animation_test", "prune_test", "render_irregular_test", "render_layers_test", "render_panes_test",
-         "render_lights_test", "render_test", "stress_frames_test"]
+         "render_lights_test", "render_shape_test", "render_test", "stress_frames_test"]
 SUITES = {  # the quick ones first
     "src/core/": ["core_tests", "core_golden_tests", "core_extreme_tests", "core_laws_tests"],
     "src/scene/": ["load_gltf_test", "gltf_refusal_test", "gltf_confinement_test", "gltf_skin_test", "animation_test",

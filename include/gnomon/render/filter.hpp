@@ -106,6 +106,11 @@ struct FilterLookup {
   /// Half sides of the box that has the pixel's variance, texels: kernels with option `footprint` are at
   /// least as wide. 0: the option is off.
   glm::dvec2 pixel{0.0};
+  /// Offsets along x and y, texels, beyond which texels have other lengths, as in maps of shape rectilinear.
+  /// Below the point, and above it.
+  glm::dvec2 ends_below{0.0}, ends_above{0.0};
+  /// Lengths of those texels over the point's own, less 1; 0: all are alike.
+  glm::dvec2 longer_below{0.0}, longer_above{0.0};
 };
 
 /// Kind of texels that a filter reads.

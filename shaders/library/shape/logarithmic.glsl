@@ -19,7 +19,7 @@ ShapedPoint place_logarithmic(mat4 shape, vec2 size, vec2 ndc) {
     slope = c / (growth * inverse_w);
     share = (ndc.y - inside) * 0.5 * slope - log(inverse_w) / growth;
   }
-  return ShapedPoint(vec2(ndc.x * 0.5 + 0.5, share) * size, mat2(0.5 * size.x, 0.0, 0.0, 0.5 * size.y * slope));
+  return smooth_point(vec2(ndc.x * 0.5 + 0.5, share) * size, mat2(0.5 * size.x, 0.0, 0.0, 0.5 * size.y * slope));
 }
 
 vec2 ndc_of_logarithmic(mat4 shape, vec2 size, vec2 texel) {

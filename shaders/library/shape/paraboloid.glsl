@@ -44,12 +44,12 @@ vec2 slope_beyond(vec2 middle, vec2 step) {
 
 ShapedPoint place_paraboloid(mat4 shape, vec2 size, vec2 ndc) {
   ParaboloidFrame f = paraboloid_frame(shape);
-  if (paraboloid_is_linear(f)) return ShapedPoint((ndc * 0.5 + 0.5) * size, mat2(0.5 * size.x, 0.0, 0.0, 0.5 * size.y));
+  if (paraboloid_is_linear(f)) return smooth_point((ndc * 0.5 + 0.5) * size, mat2(0.5 * size.x, 0.0, 0.0, 0.5 * size.y));
   vec2 step = f.half_size * ndc, s = f.middle + step, scale = (size - 2.0 * f.margin) / f.extent;
   float root = sqrt(1.0 + dot(s, s)), inverse = 1.0 / (1.0 + root), bend = inverse * inverse / root, turned = -s.x * s.y * bend;
-  return ShapedPoint(f.margin + (paraboloid_beyond(f.middle, step) - f.low) * scale,
-                     mat2((inverse - s.x * s.x * bend) * f.half_size.x * scale.x, turned * f.half_size.x * scale.y,
-                          turned * f.half_size.y * scale.x, (inverse - s.y * s.y * bend) * f.half_size.y * scale.y));
+  return smooth_point(f.margin + (paraboloid_beyond(f.middle, step) - f.low) * scale,
+                      mat2((inverse - s.x * s.x * bend) * f.half_size.x * scale.x, turned * f.half_size.x * scale.y,
+                           turned * f.half_size.y * scale.x, (inverse - s.y * s.y * bend) * f.half_size.y * scale.y));
 }
 
 vec2 ndc_of_paraboloid(mat4 shape, vec2 size, vec2 texel) {

@@ -103,9 +103,11 @@ double slope_bias_world(const BiasOptions& options, double texel_world, double k
   return texel_world * (options.constant_texels + (options.slope_texels + kernel_radius_texels) * slope);
 }
 
-ReceiverPlane receiver_plane(const Receiver& r) noexcept {
+namespace {
+
+/// The plane over ndc x and y, where it is one plane whatever the texels.
+ReceiverPlane plane_over_ndc(const Receiver& r, const NdcJacobian& b) noexcept {
   constexpr double kEdgeOn = 1e-12;
-  const NdcJacobian b = ndc_jacobian(r.clip_from_world, r.point);
   if (!(b.w > 0.0)) return {};
   // Along the plane: dz = gx dx + gy dy, so b.z - gx b.x - gy b.y is along the normal; Cramer's rule.
   const glm::dvec3 ray = glm::cross(b.x, b.y);
@@ -113,6 +115,16 @@ ReceiverPlane receiver_plane(const Receiver& r) noexcept {
   if (!(std::abs(det) > kEdgeOn * std::sqrt(glm::dot(ray, ray) * glm::dot(r.normal, r.normal)))) return {};
   const double x = glm::dot(glm::cross(b.z, b.y), r.normal) / det;
   const double y = glm::dot(glm::cross(b.x, b.z), r.normal) / det;
+  return {{x, y}, true};
+}
+
+}  // namespace
+
+ReceiverPlane receiver_plane(const Receiver& r) noexcept {
+  const NdcJacobian b = ndc_jacobian(r.clip_from_world, r.point);
+  const ReceiverPlane over_ndc = plane_over_ndc(r, b);
+  if (!over_ndc.valid) return {};
+  const double x = over_ndc.gradient.x, y = over_ndc.gradient.y;
   // Per texel: through the inverse of the shape's derivative.
   const glm::dmat2 d = r.texels.place(b.ndc).texel_from_ndc;
   const double area = d[0][0] * d[1][1] - d[0][1] * d[1][0];
@@ -165,11 +177,11 @@ glm::dvec3 normal_offset_world(const BiasOptions& options, const Receiver& recei
 
 double adaptive_bias_ndc(const Receiver& receiver, double epsilon_world) noexcept {
   const Receiver r = capped(receiver, kSteepestPlane);
-  const ReceiverPlane plane = receiver_plane(r);
-  if (!plane.valid) return 0.0;
   const NdcJacobian b = ndc_jacobian(r.clip_from_world, r.point);
+  const ReceiverPlane plane = plane_over_ndc(r, b);
+  if (!plane.valid) return 0.0;
   const glm::dvec2 texel = r.texels.place(b.ndc).texel;
-  const glm::dvec2 to_centre = glm::floor(texel) + 0.5 - texel;
+  const glm::dvec2 to_centre = r.texels.ndc_of(glm::floor(texel) + 0.5) - glm::dvec2(b.ndc);
   return glm::dot(plane.gradient, to_centre) - epsilon_world * glm::dot(b.z, r.light_direction);
 }
 

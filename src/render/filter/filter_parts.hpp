@@ -14,10 +14,18 @@ namespace gnomon::render {
 /// Half side of the box with the variance of a unit disc: sqrt(3) / 2.
 constexpr double kBoxOfDisc = 0.8660254037844386;
 
+/// compare.glsl: what a way of `offset` texels from the point is longer by than that many of the point's own
+/// texels, in those: it may leave the point's piece of the map.
+[[nodiscard]] inline glm::dvec2 beyond_piece(const FilterLookup& lookup, const glm::dvec2& offset) noexcept {
+  return lookup.longer_below * glm::min(offset - lookup.ends_below, 0.0) +
+         lookup.longer_above * glm::max(offset - lookup.ends_above, 0.0);
+}
+
 /// compare.glsl: the receiver's plane, `offset` texels from the point. It may go on behind the map's far
 /// plane, where nothing is drawn: lit.
 [[nodiscard]] inline double plane_depth(const FilterLookup& lookup, const glm::dvec2& offset) noexcept {
-  return std::min(lookup.depth + glm::dot(lookup.depth_gradient, offset), 1.0);
+  const glm::dvec2 own_texels = offset + beyond_piece(lookup, offset);
+  return std::min(lookup.depth + glm::dot(lookup.depth_gradient, own_texels), 1.0);
 }
 
 /// compare.glsl: four comparisons round `texel`, each with the plane at its texel, weighted bilinearly.

@@ -36,7 +36,9 @@ double compare_box(const FilterLookup& lookup) {
 
 /// The hardware's: bilinear 2 x 2 with one depth, in front of the plane at all four texels.
 double compare_hardware(FilterLookup lookup) {
-  lookup.depth -= std::abs(lookup.depth_gradient.x) + std::abs(lookup.depth_gradient.y);
+  const glm::dvec2 one(1.0),
+      farthest = one + glm::max(beyond_piece(lookup, one), -beyond_piece(lookup, -one));
+  lookup.depth -= glm::dot(glm::abs(lookup.depth_gradient), farthest);
   lookup.depth_gradient = glm::dvec2(0.0);
   return compare_2x2(lookup, lookup.position);
 }

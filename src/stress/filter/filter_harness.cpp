@@ -36,6 +36,8 @@ ShadowLookup question() {
   at.rotation = q.w;
   at.depth_gradient = texelFetch(gradients, pixel, 0).xy;
   at.pixel = texelFetch(gradients, pixel, 0).zw;
+  at.ends = texelFetch(gradients, pixel + ivec2(0, 1), 0);
+  at.longer = texelFetch(gradients, pixel + ivec2(0, 2), 0);
   at.layer_size = vec2(textureSize(depth_map, 0).xy);
   at.box = box;
   at.disc = mat2(box.x);
@@ -131,13 +133,17 @@ class Asker {
             {shadow_vectors(settings), true, reads_of(settings) == MapRead::filtered}))),
         half_side_(static_cast<float>(settings.radius + 0.5)),
         width_(static_cast<GLsizei>(questions.size())) {
-    Row points, gradients;
+    Row points, gradients, ends, longer;
     for (const Question& q : questions) {
       points.push_back({q.position.x, q.position.y, q.depth, q.rotation});
       gradients.push_back({q.depth_gradient.x, q.depth_gradient.y, q.pixel.x, q.pixel.y});
+      ends.push_back({q.ends_below.x, q.ends_below.y, q.ends_above.x, q.ends_above.y});
+      longer.push_back({q.longer_below.x, q.longer_below.y, q.longer_above.x, q.longer_above.y});
     }
+    gradients.insert(gradients.end(), ends.begin(), ends.end());
+    gradients.insert(gradients.end(), longer.begin(), longer.end());
     questions_ = image_of(points);
-    gradients_ = image_of(gradients);
+    gradients_ = image_of(gradients, 3);
     answers_ = image_of(points);
   }
   Row ask(int vector = 0) {
@@ -227,7 +233,7 @@ TestMap random_map(int width, int height, unsigned seed) {
 }
 
 std::vector<Question> random_questions(const TestMap& map, int count, unsigned seed, int rim) {
-  std::mt19937 random(seed);
+  std::mt19937 random(seed), pieces(seed + 1);
   const auto below = [&random](int n) { return static_cast<float>(random() % static_cast<unsigned>(n)); };
   std::vector<Question> questions;
   for (int i = 0; i < count; ++i) {
@@ -237,6 +243,14 @@ std::vector<Question> random_questions(const TestMap& map, int count, unsigned s
     q.depth = below(257) / 256.0f;
     q.depth_gradient = {(below(65) - 32.0f) / 1024.0f, (below(65) - 32.0f) / 1024.0f};
     q.rotation = below(64) / 10.0f;
+    if (i % 2 == 1) {
+      // Pieces whose texels are shorter or longer, in reach of a kernel.
+      const auto some = [&pieces](float first) { return first + static_cast<float>(pieces() % 64) / 16.0f; };
+      q.ends_below = {-some(0.0f), -some(0.0f)};
+      q.ends_above = {some(0.0f), some(0.0f)};
+      q.longer_below = {some(-0.875f), some(-0.875f)};
+      q.longer_above = {some(-0.875f), some(-0.875f)};
+    }
     questions.push_back(q);
   }
   return questions;

@@ -22,6 +22,7 @@ struct Question {
   glm::vec2 depth_gradient{0.0f};
   float rotation = 0.0f;
   glm::vec2 pixel{0.0f};  ///< FilterLookup::pixel
+  glm::vec2 ends_below{0.0f}, ends_above{0.0f}, longer_below{0.0f}, longer_above{0.0f};  ///< of FilterLookup
 };
 
 /// Every question stands in a parallel light, 10 world units of depth over the map's range, 8 texels to a
@@ -70,7 +71,7 @@ class Reference {
     glm::dvec2 position{0.0};  ///< of its centre
   };
   /// The question, where its receiver's plane passes a texel.
-  [[nodiscard]] static Question moved_to(const Weighed& corner, Question question) noexcept;
+  [[nodiscard]] Question moved_to(const Weighed& corner, Question question) const;
   /// The four texels about a place, with their bilinear weights.
   [[nodiscard]] std::array<Weighed, 4> corners(const glm::dvec2& position) const;
   /// bound(), where the look-up finds `here`.

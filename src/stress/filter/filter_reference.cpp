@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "filter/filter_block.hpp"
+#include "filter/filter_parts.hpp"
 #include "filter_harness.hpp"
 
 namespace gnomon::render {
@@ -37,6 +38,10 @@ FilterLookup lookup_of(const FilterSettings& settings, const TestMap& map, const
   lookup.ray = {q.depth, 1.0, 1.0 / kTestDepthRange, 0.0};
   lookup.rotation = q.rotation;
   lookup.pixel = q.pixel;
+  lookup.ends_below = q.ends_below;
+  lookup.ends_above = q.ends_above;
+  lookup.longer_below = q.longer_below;
+  lookup.longer_above = q.longer_above;
   if (settings.filter->hooks.needs_depth_max != nullptr && settings.filter->hooks.needs_depth_max(settings)) {
     // The pyramid's texels, as depth_max_in takes them.
     const double side = 2.0 * lookup.box.x;
@@ -164,10 +169,9 @@ std::array<Reference::Weighed, 4> Reference::corners(const glm::dvec2& position)
   return all;
 }
 
-Question Reference::moved_to(const Weighed& corner, Question question) noexcept {
-  const glm::dvec2 by = corner.position - glm::dvec2(question.position);
-  const double depth = question.depth + glm::dot(glm::dvec2(question.depth_gradient), by);
-  question.depth = static_cast<float>(std::min(depth, 1.0));
+Question Reference::moved_to(const Weighed& corner, Question question) const {
+  const FilterLookup lookup = lookup_of(settings_, map_, question);
+  question.depth = static_cast<float>(plane_depth(lookup, corner.position - lookup.position));
   return question;
 }
 

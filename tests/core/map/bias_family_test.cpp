@@ -164,6 +164,21 @@ TEST(AdaptiveBias, takes_the_fragment_to_its_plane_over_the_texels_centre) {
   EXPECT_NEAR(adaptive_bias_ndc(r, 0.125), -0.125, kRounding);
 }
 
+TEST(AdaptiveBias, is_exact_where_the_centre_lies_in_the_next_piece_of_the_map) {
+  Receiver r = overhead({1, 1, 0});
+  // Pieces of 4.25 texels: the end of the first is in texel 4, and those of the second are nine times as
+  // long.
+  r.texels = {34, 34, &shapes::rectilinear, {}};
+  r.texels.parameters[0] = -0.1;
+  const auto x_of = [&](double texel) { return r.texels.ndc_of({texel, 0.0}).x; };
+  EXPECT_NEAR(x_of(5.25) - x_of(4.25), 9.0 * (x_of(4.25) - x_of(3.25)), kRounding);
+  for (const double texel : {4.05, 4.2, 4.3, 4.95}) {
+    r.point = {x_of(texel), 0.0, 0.1};
+    // On the plane y = -x, a unit of ndc x is one of depth.
+    EXPECT_NEAR(adaptive_bias_ndc(r, 0.0), x_of(4.5) - r.point.x, kRounding);
+  }
+}
+
 TEST(AdaptiveBias, a_ray_along_the_plane_gets_no_more_than_the_steepest_plane) {
   Receiver r = overhead({1, 0, 0});
   r.point = {0.49, 0, 0.25};

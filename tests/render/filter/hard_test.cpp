@@ -30,6 +30,17 @@ TEST(HardFilter, compares_the_receivers_plane_at_the_texels_centre) {
   EXPECT_EQ(filters::hard.reference.visibility({}, lookup_in(0.61f, {3.25, 3.5}, 0.5, {0.4, 0.0}), {}), 1.0);
 }
 
+TEST(HardFilter, follows_the_plane_by_the_texels_of_either_piece) {
+  // The next piece begins an eighth of a texel before the centre, and its texels are five times as long.
+  FilterLookup lookup = lookup_in(0.0f, {3.25, 3.5}, 0.5, {0.4, 0.0});
+  lookup.ends_above = {0.125, 0.0};
+  lookup.longer_above = {4.0, 0.0};
+  for (const double off : {-1e-9, 1e-9}) {
+    lookup.map_depth = [off](int, int) { return 0.5 + 0.4 * (0.125 + 5.0 * 0.125) + off; };
+    EXPECT_EQ(filters::hard.reference.visibility({}, lookup, {}), off < 0.0 ? 0.0 : 1.0);
+  }
+}
+
 TEST(HardFilter, returns_the_same_on_gpu_and_cpu) {
   // Sides that are no powers of two too: texel centres over the side are then rounded.
   for (const auto& [width, height] : {std::pair{64, 64}, std::pair{48, 83}}) {

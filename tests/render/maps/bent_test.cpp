@@ -343,6 +343,41 @@ TEST(BentMaps, every_filter_reads_them) {
   }
 }
 
+TEST(BentMaps, a_plane_is_lit_where_texels_of_several_lengths_meet) {
+  // Depths change from texel to texel by more than the bias covers: it is capped at less than this slope.
+  const glm::dvec3 light(8.0, -1.0, 2.4);
+  Scene scene = empty_scene();
+  add_quad(scene, {-20.0f, 0.0f, 20.0f}, {40.0f, 0.0f, 0.0f}, {0.0f, 0.0f, -40.0f});
+  const Camera camera = camera_on_box(kSize, kSize);
+  Renderer renderer(scene);
+  // Those that compare texel by texel, and pcf by the hardware's comparison.
+  std::vector<FilterSettings> compared{default_settings(filters::pcf)};
+  compared[0].radius = 0.0;
+  for (const Filter* filter : all_filters()) {
+    if (filter->info.reads == MapRead::depth) compared.push_back(default_settings(*filter));
+  }
+  for (const FilterSettings& settings : compared) {
+    // Of 8 texels to a piece, or of 32 for wide kernels: a way of more than a piece is not followed exactly.
+    PlanOptions options = one_map(shapes::linear, settings.radius > 4.0 ? 256 : 64);
+    set_margin(settings, options);
+    ShadowPlan plan = plan_for(scene, camera, light, options);
+    // Every other piece has texels a twelfth as long as its neighbours'.
+    ShadowMap& map = plan.map[0];
+    map.shape = &shapes::rectilinear;
+    for (std::size_t i = 0; i < 7; i += 2) map.shape_parameters[i] = map.shape_parameters[7 + i] = -0.105;
+    map.shape_parameters[14] = map.filter_margin_texels;
+    const Frame frame = draw(renderer, camera, plan, settings);
+    std::size_t judged = 0, dark = 0;
+    for (std::size_t i = 0; i < frame.pixels(); ++i) {
+      if (!frame.surface(i) || frame.map(i) < 0) continue;
+      ++judged;
+      dark += frame.lit(i) < 1.0f - kWeightRounding ? 1 : 0;
+    }
+    EXPECT_GT(judged, frame.pixels() / 2);
+    EXPECT_EQ(dark, 0u) << settings.filter->info.name << " radius " << settings.radius;
+  }
+}
+
 TEST(BentMaps, the_error_along_the_view_is_the_same_in_every_pixel) {
   // Through a lens of six degrees: m counts pixels beside the view axis by their obliquity, which no map
   // evens out.

@@ -113,5 +113,43 @@ TEST(ShapeLaw, shaders_place_texels_where_the_core_does) {
   }
 }
 
+TEST(ShapeLaw, shaders_know_how_long_texels_are_beyond_a_piece_of_the_map) {
+  constexpr double kReach = 40.0;  // texels: less than a piece has, so that a way crosses at most one end
+  int longer = 0;
+  for (auto [s, q] : tried()) {
+    for (double& value : q) value = static_cast<double>(static_cast<float>(value));
+    const TexelGrid grid{640, 384, all_shapes()[s], q};
+    const bool pieces = grid.shape == &shapes::rectilinear;
+    const auto ends = drawn("p.ends", static_cast<float>(s), grid);
+    const auto lengths = drawn("p.longer", static_cast<float>(s), grid);
+    for (int y = 0; y < kSide; ++y) {
+      for (int x = 0; x < kSide; ++x) {
+        const auto at = static_cast<std::size_t>(y) * kSide + static_cast<std::size_t>(x);
+        const glm::dvec2 ndc = glm::dvec2(x, y) / (kSide - 1.0) * 2.0 - 1.0;
+        const ShapedPoint p = grid.place(ndc);
+        for (std::size_t i = 0; i < 4; ++i) {
+          const int axis = i % 2 == 0 ? 0 : 1;
+          const double beyond = lengths[at][i];
+          if (!pieces) {
+            ASSERT_EQ(beyond, 0.0) << grid.shape->name;
+            continue;
+          }
+          for (const double steps : {0.25, 1.0, kReach}) {
+            const double way = i < 2 ? -steps : steps, end = ends[at][i];
+            const double past = i < 2 ? std::min(way - end, 0.0) : std::max(way - end, 0.0);
+            glm::dvec2 there = p.texel;
+            there[axis] += way;
+            const double own_texels = (grid.ndc_of(there)[axis] - ndc[axis]) * p.texel_from_ndc[axis][axis];
+            ASSERT_NEAR(way + beyond * past, own_texels, 1e-3 * (1.0 + std::abs(beyond)))
+                << "place " << ndc[axis] << " axis " << axis << " end " << end;
+            longer += past != 0.0 && beyond > 1.0 ? 1 : 0;
+          }
+        }
+      }
+    }
+  }
+  EXPECT_GT(longer, 500);
+}
+
 }  // namespace
 }  // namespace gnomon::render
