@@ -57,6 +57,8 @@ namespace {
 
 // Knots nearer together than this part of a unit span would divide by nothing; keys may well repeat.
 constexpr double kLeastSpan = 1e-6;
+// Axes of files are of single precision: smaller sines are none.
+constexpr double kSingleSine = 1e-6;
 
 double span_between(const CameraKey& a, const CameraKey& b) noexcept {
   const glm::dvec3 p = b.position - a.position, t = b.target - a.target;
@@ -64,7 +66,8 @@ double span_between(const CameraKey& a, const CameraKey& b) noexcept {
 }
 
 CameraKey mix(const CameraKey& a, const CameraKey& b, double t) noexcept {
-  return {a.position + (b.position - a.position) * t, a.target + (b.target - a.target) * t};
+  return {a.position + (b.position - a.position) * t, a.target + (b.target - a.target) * t,
+          a.up + (b.up - a.up) * t};
 }
 
 // The keys around one segment, at `knots`; the curve between the middle two.
@@ -120,7 +123,18 @@ CameraKey key_in_flight(const CameraPath& path, double t) noexcept {
   return evaluate(s, std::min(goal - begin, s.knots[2]));
 }
 
+bool is_vertical(const glm::dvec3& v) noexcept {
+  return std::hypot(v.x, v.z) <= kSingleSine * std::abs(v.y);
+}
+
 }  // namespace
+
+CameraKey camera_key(const glm::dvec3& position, const glm::dvec3& forward, const glm::dvec3& up) noexcept {
+  CameraKey key{position, position + forward};
+  const CameraAxes upright = camera_axes(CameraPath{.keys = {key}}.at(0.0, 1, 1));
+  if (std::abs(glm::dot(up, upright.right)) > kSingleSine || glm::dot(up, upright.up) < 0.0) key.up = up;
+  return key;
+}
 
 Camera CameraPath::at(double t, int width, int height) const noexcept {
   CameraKey key;
@@ -129,11 +143,10 @@ Camera CameraPath::at(double t, int width, int height) const noexcept {
   glm::dvec3 forward = key.target - key.position;
   // Two keys that look at each other meet in the middle; a camera must still look somewhere.
   if (!(glm::dot(forward, forward) > 0.0)) forward = {0.0, 0.0, -1.0};
-  // A camera that looks straight down has north (-Z) at its top, as maps do; quaternions of files are single.
-  constexpr double kVerticalSine = 1e-6;
-  glm::dvec3 up{0.0, 1.0, 0.0};
-  if (std::hypot(forward.x, forward.z) <= kVerticalSine * std::abs(forward.y))
-    up = {0.0, 0.0, forward.y < 0.0 ? -1.0 : 1.0};
+  // A camera that looks straight down has north (-Z) at its top, as maps do.
+  const glm::dvec3 up = is_vertical(forward) && is_vertical(key.up)
+                            ? glm::dvec3(0.0, 0.0, forward.y < 0.0 ? -1.0 : 1.0)
+                            : key.up;
   const double aspect = height > 0 ? static_cast<double>(width) / static_cast<double>(height) : 1.0;
   if (height_world > 0.0)
     return orthographic_camera(key.position, forward, up, height_world, aspect, near_depth, far_depth, width,

@@ -66,9 +66,11 @@ CameraPath parse(const json& source) {
     throw Refusal("keys", "must be a list of keys");
   for (std::size_t i = 0; i < keys->size(); ++i) {
     const std::string where = element("keys", i);
-    refuse_unknown((*keys)[i], where, {"position", "target"});
-    const CameraKey key{point((*keys)[i], "position", where), point((*keys)[i], "target", where)};
+    refuse_unknown((*keys)[i], where, {"position", "target", "up"});
+    CameraKey key{point((*keys)[i], "position", where), point((*keys)[i], "target", where)};
     if (key.position == key.target) throw Refusal(where, "target is the position");
+    if ((*keys)[i].contains("up")) key.up = point((*keys)[i], "up", where);
+    if (key.up == glm::dvec3(0.0)) throw Refusal(where + ".up", "must not be zero");
     path.keys.push_back(key);
   }
   if (const auto closed = source.find("closed"); closed != source.end()) {
@@ -122,6 +124,7 @@ void save_camera_path(const CameraPath& path, const std::filesystem::path& file)
   json keys = json::array();
   for (const CameraKey& key : path.keys) {
     keys.push_back({{"position", to_json(key.position)}, {"target", to_json(key.target)}});
+    if (key.up != CameraKey().up) keys.back()["up"] = to_json(key.up);
   }
   json out = {{"keys", keys}, {"closed", path.closed}, {"near", path.near_depth}, {"far", path.far_depth}};
   if (path.height_world > 0.0)

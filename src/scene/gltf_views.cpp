@@ -38,7 +38,24 @@ std::string name_of(const json& owner) {
 
 constexpr double kLargest = 1e30;
 
-SceneLight light_in(const json& light) {
+/// Three numbers from 0 on; white where there are none.
+glm::vec3 color_in(const json& light) {
+  const auto found = light.find("color");
+  if (found == light.end()) return glm::vec3(1.0f);
+  if (!found->is_array() || found->size() != 3) throw LeftOut("color is not three numbers");
+  glm::vec3 color;
+  for (std::size_t c = 0; c < 3; ++c) {
+    const json& value = (*found)[c];
+    const std::string where = element("color", c);
+    if (!value.is_number()) throw LeftOut(where + " is no number");
+    if (!(value.get<double>() >= 0.0 && value.get<double>() <= kLargest))
+      throw LeftOut(where + " is out of range");
+    color[static_cast<int>(c)] = value.get<float>();
+  }
+  return color;
+}
+
+Light shape_in(const json& light) {
   const std::string type = light.contains("type") && light["type"].is_string() ? light["type"] : json("");
   const double range = number_in(light, "range", 0.0, 0.0, kLargest);
   const json* spot = find_object(light, "spot");
@@ -46,10 +63,15 @@ SceneLight light_in(const json& light) {
   const double outer =
       spot == nullptr ? kHalf / 2.0 : number_in(*spot, "outerConeAngle", kHalf / 2.0, 1e-6, kHalf);
   constexpr glm::dvec3 kOrigin{0.0, 0.0, 0.0}, kAhead{0.0, 0.0, -1.0};
-  if (type == "directional") return {name_of(light), DirectionalLight{kAhead}};
-  if (type == "point") return {name_of(light), PointLight{kOrigin, range}};
-  if (type == "spot") return {name_of(light), SpotLight{kOrigin, kAhead, outer, range}};
+  if (type == "directional") return DirectionalLight{kAhead};
+  if (type == "point") return PointLight{kOrigin, range};
+  if (type == "spot") return SpotLight{kOrigin, kAhead, outer, range};
   throw LeftOut("has no type that is known");
+}
+
+SceneLight light_in(const json& light) {
+  return {name_of(light), shape_in(light), color_in(light),
+          number_in(light, "intensity", 1.0, 0.0, kLargest)};
 }
 
 SceneCamera camera_in(const json& camera) {
@@ -68,9 +90,16 @@ SceneCamera camera_in(const json& camera) {
   if (out.orthographic) {
     out.height_world = 2.0 * std::abs(number_in(of, "ymag", 0.0, -kLargest, kLargest));
     if (!(out.height_world > 0.0)) throw LeftOut("has no ymag");
+    if (of.contains("xmag")) {
+      const double width = 2.0 * std::abs(number_in(of, "xmag", 0.0, -kLargest, kLargest));
+      out.aspect = width / out.height_world;
+      if (!(width > 0.0)) throw LeftOut("xmag is zero");
+    }
   } else {
     out.fov_y_radians = number_in(of, "yfov", 0.0, 1e-6, std::numbers::pi - 1e-6);
     if (!(out.fov_y_radians > 0.0)) throw LeftOut("has no yfov");
+    constexpr double kNone = 0.0, kLeast = 1e-12;
+    if (of.contains("aspectRatio")) out.aspect = number_in(of, "aspectRatio", kNone, kLeast, kLargest);
   }
   return out;
 }

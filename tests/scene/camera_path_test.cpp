@@ -172,6 +172,38 @@ TEST(CameraPath, that_looks_straight_down_has_north_at_its_top_and_up_has_it_at_
   }
 }
 
+TEST(CameraPath, has_the_up_of_its_keys_at_the_top_of_the_picture) {
+  const auto up_of = [](const CameraPath& path, double t) { return camera_axes(path.at(t, 96, 54)).up; };
+  CameraPath path = path_of({{{0, 0, 5}, {0, 0, 0}, {-2, 2, 0}}});
+  const double half = std::sqrt(0.5);
+  EXPECT_LT(distance(up_of(path, 0.0), {-half, half, 0}), kRounding);
+  // Half way from one to the other it has turned half of the way.
+  path = path_of({{{0, 0, 5}, {0, 0, 0}}, {{0, 0, 5}, {0, 0, 0}, {-1, 0, 0}}});
+  EXPECT_LT(distance(up_of(path, 0.5), {-half, half, 0}), kRounding);
+  // Down, with east at its top.
+  path = path_of({{{0, 5, 0}, {0, 0, 0}, {1, 0, 0}}});
+  EXPECT_LT(distance(up_of(path, 0.0), {1, 0, 0}), kRounding);
+  // Along the view there is still a picture.
+  path = path_of({{{0, 0, 5}, {0, 0, 0}, {0, 0, 1}}});
+  EXPECT_NEAR(glm::length(up_of(path, 0.0)), 1.0, kRounding);
+}
+
+TEST(CameraKey, of_an_upright_camera_has_the_world_s_up) {
+  const glm::dvec3 world_up{0, 1, 0}, forward = glm::normalize(glm::dvec3(1, -2, -3));
+  CameraKey key{{1, 2, 3}, glm::dvec3(1, 2, 3) + forward};
+  const CameraAxes upright = camera_axes(path_of({key}).at(0.0, 4, 4));
+  EXPECT_EQ(camera_key(key.position, forward, upright.up).up, world_up);
+  EXPECT_EQ(camera_key(key.position, forward, upright.up + 1e-8 * upright.right).up, world_up);
+  for (const glm::dvec3& up :
+       {-upright.up, upright.right, glm::normalize(upright.up + 1e-3 * upright.right)}) {
+    key = camera_key({1, 2, 3}, forward, up);
+    EXPECT_LT(distance(camera_axes(path_of({key}).at(0.0, 4, 4)).up, up), kRounding);
+  }
+  // Straight down: north is upright.
+  EXPECT_EQ(camera_key({0, 9, 0}, {0, -1, 0}, {0, 0, -1}).up, world_up);
+  EXPECT_EQ(camera_key({0, 9, 0}, {0, -1, 0}, {1, 0, 0}).up, glm::dvec3(1, 0, 0));
+}
+
 TEST(CameraPath, with_a_height_is_orthographic) {
   CameraPath path = path_of({{{0, 0, 10}, {0, 0, 0}}});
   path.height_world = 6.0;
@@ -203,7 +235,8 @@ TEST(CameraPath, with_a_height_is_orthographic) {
 }
 
 TEST(CameraPathFile, saved_and_loaded_again_is_the_same_flight) {
-  CameraPath path = path_of({{{0.1, 1e-9, 3e7}, {1.0 / 3.0, 0, 0}}, {{4, 5, 6}, {7, 8, 9}}}, true);
+  CameraPath path =
+      path_of({{{0.1, 1e-9, 3e7}, {1.0 / 3.0, 0, 0}}, {{4, 5, 6}, {7, 8, 9}, {0.1, -3, 2}}}, true);
   path.near_depth = 0.123;
   path.far_depth = 4567.8;
   const WrittenFolder folder;
@@ -213,6 +246,7 @@ TEST(CameraPathFile, saved_and_loaded_again_is_the_same_flight) {
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(back.keys[i].position, path.keys[i].position);
     EXPECT_EQ(back.keys[i].target, path.keys[i].target);
+    EXPECT_EQ(back.keys[i].up, path.keys[i].up);
   }
   EXPECT_TRUE(back.closed);
   EXPECT_EQ(back.near_depth, path.near_depth);
@@ -238,6 +272,8 @@ TEST(CameraPathFile, what_is_wrong_is_named_with_its_file_and_key) {
       {R"({"keys":[{"position":[0,0,1],"target":[-1e155,0,1]}]})", "keys[0].target: must be"},
       {R"({"keys":[)" + key + R"(],"near":1e307,"far":1e308})", "near: must be a number up to 1e30"},
       {R"({"keys":[{"position":[0,0,1],"target":[0,0,2],"roll":1}]})", "unknown key 'roll'"},
+      {R"({"keys":[{"position":[0,0,1],"target":[0,0,2],"up":[0,0,0]}]})", "keys[0].up: must not be zero"},
+      {R"({"keys":[{"position":[0,0,1],"target":[0,0,2],"up":[0,1]}]})", "keys[0].up: must be three numbers"},
       {R"({"keys":[)" + key + R"(],"fov":60})", "unknown key 'fov'"},
       {R"({"keys":[)" + key + R"(],"fov_y_deg":180})", "fov_y_deg"},
       {R"({"keys":[)" + key + R"(],"height_world":0})", "height_world: must be above 0"},

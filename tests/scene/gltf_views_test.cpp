@@ -71,6 +71,22 @@ TEST(GltfLights, that_are_broken_or_hidden_are_not_there) {
   EXPECT_TRUE(gltf.load().lights.empty());
 }
 
+TEST(GltfLights, have_the_colour_and_intensity_of_the_file) {
+  TestGltf gltf = lit();
+  json& lights = gltf.document["extensions"]["KHR_lights_punctual"]["lights"];
+  lights[1]["color"] = {0.25, 0, 1};
+  lights[1]["intensity"] = 120;
+  lights[2]["intensity"] = 0;
+  const Scene scene = gltf.load();
+  EXPECT_TRUE(scene.warnings.empty());
+  ASSERT_EQ(scene.lights.size(), 3u);
+  EXPECT_EQ(scene.lights[0].color, glm::vec3(1.0f));
+  EXPECT_EQ(scene.lights[0].intensity, 1.0);
+  EXPECT_EQ(scene.lights[1].color, glm::vec3(0.25f, 0.0f, 1.0f));
+  EXPECT_EQ(scene.lights[1].intensity, 120.0);
+  EXPECT_EQ(scene.lights[2].intensity, 0.0);
+}
+
 /// The lines that a file is warned of in.
 std::vector<std::string> warnings_of(const TestGltf& gltf) {
   return gltf.load().warnings;
@@ -94,6 +110,22 @@ TEST(GltfLights, that_nodes_name_wrongly_are_warned_of_by_their_place) {
   EXPECT_EQ(warnings_of(gltf)[0], "KHR_lights_punctual: is no object, and does not count");
   gltf.document["extensions"]["KHR_lights_punctual"] = {{"lights", 7}};
   EXPECT_EQ(warnings_of(gltf)[0], "KHR_lights_punctual.lights: is no list, skipped");
+}
+
+TEST(GltfLights, whose_colour_or_intensity_is_broken_are_missing_with_a_line) {
+  const std::vector<std::tuple<const char*, json, std::string>> cases{
+      {"intensity", -1, "intensity is out of range"},     {"intensity", 1e31, "intensity is out of range"},
+      {"intensity", json(), "intensity is no number"},    {"color", {1, 1}, "color is not three numbers"},
+      {"color", "red", "color is not three numbers"},     {"color", {1, json(), 1}, "color[1] is no number"},
+      {"color", {1, 1, -0.5}, "color[2] is out of range"}};
+  for (const auto& [key, value, line] : cases) {
+    TestGltf gltf = lit();
+    gltf.document["extensions"]["KHR_lights_punctual"]["lights"][1][key] = value;
+    const Scene scene = gltf.load();
+    EXPECT_EQ(scene.lights.size(), 2u) << line;
+    EXPECT_EQ(scene.warnings,
+              std::vector<std::string>{"KHR_lights_punctual.lights[1]: " + line + ", skipped"});
+  }
 }
 
 TEST(GltfCameras, that_nodes_name_wrongly_are_warned_of_by_their_place) {
@@ -124,6 +156,27 @@ TEST(GltfCameras, look_where_their_nodes_do) {
   EXPECT_EQ(scene.cameras[1].name, "endless");
   EXPECT_TRUE(scene.cameras[2].orthographic);
   EXPECT_EQ(scene.cameras[2].height_world, 8.0);
+  EXPECT_EQ(scene.cameras[2].aspect, 1.5);
+  EXPECT_EQ(scene.cameras[0].aspect, 0.0);
+}
+
+TEST(GltfCameras, whose_aspect_is_broken_are_missing_with_a_line) {
+  const std::vector<std::tuple<const char*, json, std::string>> cases{
+      {"perspective", {{"yfov", 0.7}, {"znear", 0.1}, {"aspectRatio", 0}}, "aspectRatio is out of range"},
+      {"perspective", {{"yfov", 0.7}, {"znear", 0.1}, {"aspectRatio", -2}}, "aspectRatio is out of range"},
+      {"perspective", {{"yfov", 0.7}, {"znear", 0.1}, {"aspectRatio", "4:3"}}, "aspectRatio is no number"},
+      {"orthographic", {{"xmag", 0}, {"ymag", 4}, {"znear", 0}, {"zfar", 9}}, "xmag is zero"},
+      {"orthographic", {{"xmag", json()}, {"ymag", 4}, {"znear", 0}, {"zfar", 9}}, "xmag is no number"}};
+  for (const auto& [kind, lens, line] : cases) {
+    TestGltf gltf = one_triangle();
+    gltf.document["cameras"] = {{{kind, lens}}};
+    gltf.show_node(node("camera", 0));
+    EXPECT_EQ(warnings_of(gltf), std::vector<std::string>{"cameras[0]: " + line + ", skipped"});
+  }
+  TestGltf gltf = one_triangle();
+  gltf.document["cameras"] = {{{"perspective", {{"yfov", 0.7}, {"znear", 0.1}, {"aspectRatio", 1.5}}}}};
+  gltf.show_node(node("camera", 0));
+  EXPECT_EQ(gltf.load().cameras.at(0).aspect, 1.5);
 }
 
 TEST(GltfCameras, that_are_broken_are_warned_of_and_missing) {

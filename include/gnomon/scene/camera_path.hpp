@@ -15,7 +15,13 @@ namespace gnomon {
 struct CameraKey {
   glm::dvec3 position{0.0};           ///< eye, world space
   glm::dvec3 target{0.0, 0.0, -1.0};  ///< the point looked at, not equal to position
+  /// Points to the top of the picture, any length but zero. Along the view, north (-Z) or +Z stands in.
+  glm::dvec3 up{0.0, 1.0, 0.0};
 };
+
+/// The key of a camera with these unit axes. Its `up` stays +Y where that shows the same picture.
+[[nodiscard]] CameraKey camera_key(const glm::dvec3& position, const glm::dvec3& forward,
+                                   const glm::dvec3& up) noexcept;
 
 /// Catmull-Rom through `keys` (centripetal, so no loops or cusps between them), in the unit interval of time.
 /// One key is a still camera. `closed` joins the last key to the first.
@@ -28,13 +34,13 @@ struct CameraPath {
   double height_world = 0.0;
   double near_depth = 0.1;   ///< near plane, world units, above 0
   double far_depth = 100.0;  ///< far plane, world units
-  /// The camera at time `t` in [0,1] (clamped), for an image of this size. World up is +Y.
+  /// The camera at time `t` in [0,1] (clamped), for an image of this size.
   [[nodiscard]] Camera at(double t, int width, int height) const noexcept;
 };
 
 /// Reads
 /// {"keys":[{"position":[x,y,z],"target":[x,y,z]},...],"closed":false,"fov_y_deg":60,"near":0.1,"far":100},
-/// with "height_world" in place of "fov_y_deg" for an orthographic camera.
+/// with "height_world" in place of "fov_y_deg" for an orthographic camera. A key may have "up":[x,y,z].
 /// Unknown keys are an error. Throws SceneError with file and key.
 [[nodiscard]] CameraPath load_camera_path(const std::filesystem::path& file);
 /// Writes the same format.

@@ -75,8 +75,10 @@ struct Instance {
 
 /// A light that a file has (KHR_lights_punctual).
 struct SceneLight {
-  std::string name;  ///< as in the file, else its node's, else its number there
-  Light light;       ///< world space
+  std::string name;        ///< as in the file, else its node's, else its number there
+  Light light;             ///< world space
+  glm::vec3 color{1.0f};   ///< linear, by channel, >= 0
+  double intensity = 1.0;  ///< lux of a sun, candela of a spot or point, >= 0
 };
 
 /// A camera that a file has.
@@ -88,6 +90,7 @@ struct SceneCamera {
   bool orthographic = false;           ///< parallel projection
   double fov_y_radians = 0.0;          ///< full vertical angle, of a perspective camera
   double height_world = 0.0;           ///< from bottom to top, of an orthographic one
+  double aspect = 0.0;                 ///< width over height of its picture; 0: the file has none
   double near_depth = 0.0;             ///< world units
   double far_depth = 0.0;              ///< world units, may be infinite
 };
