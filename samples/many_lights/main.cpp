@@ -1,5 +1,4 @@
-// A flight through a scene under many lights whose shadow maps share one pool: plan_lights -> make_plan ->
-// draw.
+// A flight through a scene under many lights whose shadow maps share one pool: LightPool -> draw.
 //
 // usage: many_lights [SCENE] [FOLDER] [LIGHTS]     builtin:hangar, out/many_lights and 24 where nothing is
 // said; LIGHTS is a number, or `file` for all lights of the scene's file
@@ -9,10 +8,11 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/render/context.hpp>
 #include <gnomon/render/filter.hpp>
+#include <gnomon/render/light_pool.hpp>
 #include <gnomon/render/renderer.hpp>
 #include <gnomon/scene/camera_path.hpp>
 #include <gnomon/scene/default_light.hpp>
@@ -31,48 +31,21 @@ constexpr double kStep = 0.004;  // of the flight, from frame to frame
 
 constexpr int kOfFile = 0;  // lights, in place of a number
 
-/// Lights over the scene, and a faint moon; or all lights of its file.
-std::vector<gnomon::LightRequest> place_lights(const gnomon::Scene& scene, int count) {
+/// Lights over the scene, warm and cold by turns, and a faint moon; or all lights of its file.
+std::vector<gnomon::render::PooledLight> place_lights(const gnomon::Scene& scene, int count) {
+  std::vector<gnomon::render::PooledLight> lights;
   if (count == kOfFile) {
-    std::vector<gnomon::LightRequest> lights;
-    for (const gnomon::SceneLight& of_file : scene.lights) lights.push_back({of_file.light});
+    lights = gnomon::render::lights_of(scene);
     if (lights.empty())
-      throw std::runtime_error("LIGHTS file: the scene's file has no light that can be read");
+      throw std::runtime_error("LIGHTS file: the scene's file has no light that can be read and shines");
     return lights;
   }
-  std::vector<gnomon::LightRequest> lights{{gnomon::DirectionalLight{{0.4, -1.0, 0.3}}, 0.1}};
+  constexpr glm::vec3 kMoon{0.03f, 0.04f, 0.06f}, kWarm{0.5f, 0.3f, 0.15f}, kCold{0.25f, 0.35f, 0.5f};
+  lights.push_back({{gnomon::DirectionalLight{{0.4, -1.0, 0.3}}, 0.1}, kMoon});
   for (const gnomon::Light& light : gnomon::local_lights(count, scene.bounds_world))
-    lights.push_back({light});
+    lights.push_back({{light}, lights.size() % 2 == 0 ? kWarm : kCold});
   return lights;
 }
-
-/// Warm and cold by turns, and the moon.
-glm::vec3 color_of(const gnomon::Light& light, std::size_t index) {
-  if (std::holds_alternative<gnomon::DirectionalLight>(light)) return {0.03f, 0.04f, 0.06f};
-  return index % 2 == 0 ? glm::vec3(0.5f, 0.3f, 0.15f) : glm::vec3(0.25f, 0.35f, 0.5f);
-}
-
-/// The maps of each light, as drawn last, and everything that plan_lights writes to.
-struct Lights {
-  std::vector<gnomon::LightRequest> requests;
-  std::vector<gnomon::ShadowPlan> plans;
-  std::vector<std::byte> memory;
-  std::vector<gnomon::LightState> states;
-  gnomon::LightHistory history;
-
-  explicit Lights(std::vector<gnomon::LightRequest> all)
-      : requests(std::move(all)),
-        plans(requests.size()),
-        memory(gnomon::light_memory(requests.size(), 0)),
-        states(requests.size()),
-        history{states, 0, {}} {}
-  [[nodiscard]] std::vector<gnomon::render::DrawnLight> drawn() const {
-    std::vector<gnomon::render::DrawnLight> lights;
-    for (std::size_t i = 0; i < requests.size(); ++i)
-      lights.push_back({requests[i].light, &plans[i], color_of(requests[i].light, i)});
-    return lights;
-  }
-};
 
 int fly(const std::string& scene_name, const fs::path& folder, int count) {
   const auto context = gnomon::render::create_context(gnomon::render::ContextKind::automatic);
@@ -89,16 +62,17 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
   const gnomon::render::PreparedFilter filter = renderer.prepare(pcf, gnomon::render::Source::lights);
   gnomon::LightOptions pool;
   gnomon::render::set_margin(pcf, pool.plan);
-  Lights lights(place_lights(scene, count));
+  gnomon::render::LightPool lights(place_lights(scene, count), pool);
+  double exposure = 1.0;
   fs::create_directories(folder);
 
   for (int frame = 0; frame < kFrames; ++frame) {
     const gnomon::Camera camera = path.at(0.3 + kStep * frame, kWidth, kHeight);
 
-    // 1. Sizes and places of all lights' maps, and which of them are due.
+    // 1. Sizes and places of all lights' maps, which of them are due (plan_lights), and a plan for each that
+    // is (make_plan).
     const auto begin = std::chrono::steady_clock::now();
-    const gnomon::LightPlan plan =
-        gnomon::plan_lights(camera, lights.requests, {set, set}, pool, lights.memory, &lights.history);
+    const gnomon::LightPlan& plan = lights.plan(camera, {set, set});
     const double ms =
         std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     if (plan.status == gnomon::PlanStatus::invalid_input) {
@@ -106,22 +80,18 @@ int fly(const std::string& scene_name, const fs::path& folder, int count) {
       return 2;
     }
 
-    // 2. A plan for each light that is due.
-    for (std::size_t i = 0; i < lights.requests.size(); ++i) {
-      const gnomon::LightMaps& own = plan.lights[i];
-      if (!own.due) continue;
-      const gnomon::Light& light = lights.requests[i].light;
-      lights.plans[i] = gnomon::make_plan(own.frames > 1 ? gnomon::camera_round(light, camera) : camera,
-                                          light, {set, set}, gnomon::light_options(pool, own));
+    // 2. Draw: the maps of due lights, then the sum of all light. Lux and candela of a file need an exposure.
+    gnomon::render::FrameStats stats = renderer.draw({plan, lights.drawn(exposure)}, camera, filter);
+    if (count == kOfFile && frame == 0) {
+      exposure = gnomon::render::exposure_of(renderer.light_sum());
+      if (exposure == 0.0) exposure = 1.0;  // nothing in view is lit
+      stats = renderer.draw({plan, lights.drawn(exposure)}, camera, filter);
     }
-
-    // 3. Draw: the maps of due lights, then the sum of all light.
-    const gnomon::render::FrameStats stats = renderer.draw({plan, lights.drawn()}, camera, filter);
     gnomon::write_png(renderer.image(), folder / ("frame_" + std::to_string(frame) + ".png"));
     std::printf(
         "frame %d: %d of %zu lights have maps, %d due, %.1f of %.1f million texels drawn, planned in %.2f "
         "ms\n",
-        frame, plan.mapped, lights.requests.size(), plan.due, static_cast<double>(stats.texels) * 1e-6,
+        frame, plan.mapped, lights.lights().size(), plan.due, static_cast<double>(stats.texels) * 1e-6,
         static_cast<double>(plan.texels) * 1e-6, ms);
   }
   std::printf("pictures: %s\n", folder.string().c_str());

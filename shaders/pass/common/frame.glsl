@@ -12,7 +12,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 forward;                    // xyz, and 1 for an orthographic camera
   vec4 image_edges;                // left, right, bottom, top
   vec4 light;                      // xyz: direction of travel, for local lights along the axis; w: number of maps
-  vec4 light_place;                // as light_at takes it
+  vec4 light_place;                // as light_at takes it; w is 2 where the light falls by the inverse square
   vec4 light_cone;                 // way of its axis; cosine of its half angle, -1: none
   vec4 bias;                       // BiasOptions: constant, slope, normal offset, largest slope
   vec4 layer;                      // texels of a layer along x and y; range of the light, 0: none; far depth of the camera

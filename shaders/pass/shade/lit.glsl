@@ -13,12 +13,22 @@ vec3 view_ray(vec2 pixel) {
   return normalize(frame.forward.xyz + at.x * frame.right.xyz + at.y * frame.up.xyz);
 }
 
+// Falloff by distance, which ends softly at the range. By the inverse square as KHR_lights_punctual recommends it.
+float distance_falloff(LightRecord by, float away) {
+  const float kNearest = 0.01;  // world units: at the light itself the square would have no end
+  float range = by.layer.z;
+  float part = range > 0.0 ? away / range : 0.0;
+  float fade = clamp(1.0 - part, 0.0, 1.0);
+  bool inverse_square = by.light_place.w > 1.5;
+  if (!inverse_square) return fade * (2.0 - fade);
+  float square = max(away, kNearest);
+  return clamp(1.0 - part * part * part * part, 0.0, 1.0) / (square * square);
+}
+
 // Falloff of a local light by its cone and range; both end softly.
 float local_light_falloff(LightRecord by, vec3 ray, float away) {
-  float range = by.layer.z;
-  float fade = range > 0.0 ? clamp(1.0 - away / range, 0.0, 1.0) : 1.0;
   float cone = smoothstep(by.light_cone.w, mix(by.light_cone.w, 1.0, 0.1), dot(ray, by.light_cone.xyz));
-  return (by.light_cone.w > -1.0 ? cone : 1.0) * fade * (2.0 - fade);
+  return (by.light_cone.w > -1.0 ? cone : 1.0) * distance_falloff(by, away);
 }
 
 bool is_local_light(LightRecord by) { return by.light_place.w > 0.5; }

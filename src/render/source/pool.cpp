@@ -79,7 +79,7 @@ FrameBlock block_of(const DrawnLight& light, const LightMaps& maps, const Camera
     const auto* spot = std::get_if<SpotLight>(&light.light);
     const auto* point = std::get_if<PointLight>(&light.light);
     const glm::dvec3 position = spot != nullptr ? spot->position : point->position;
-    block.light_place = glm::vec4(glm::vec3(position - camera.position), 1.0f);
+    block.light_place = glm::vec4(glm::vec3(position - camera.position), light.inverse_square ? 2.0f : 1.0f);
   }
   for (std::size_t k = 0; k < plan.maps().size(); ++k)
     move_to_place(plan.map[k], maps.place[k], plan.selection != MapSelection::view_depth, glm::vec2(pool),

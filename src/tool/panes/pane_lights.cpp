@@ -11,7 +11,9 @@
 namespace gnomon::tool {
 
 PaneLights::PaneLights(const Light& sun, int local_lights, const TranslucentParts& parts) {
-  requests_.push_back({sun});
+  // A weak sun, so that the others show.
+  constexpr glm::vec3 kSun(0.35f), kLocal(0.6f);
+  lights_.push_back({{sun}, kSun});
   const Box& box = parts.panes.instances.empty() ? parts.opaque.bounds_world : parts.panes.bounds_world;
   const glm::dvec3 extent = box.max - box.min;
   // Above the panes by a third of their height, and far enough to reach beyond them.
@@ -20,7 +22,7 @@ PaneLights::PaneLights(const Light& sun, int local_lights, const TranslucentPart
             rows = (local_lights + columns - 1) / columns;
   for (int i = 0; i < local_lights; ++i) {
     const glm::dvec3 at{(i % columns + 0.5) / columns, 1.0 + kAbove, (i / columns + 0.5) / rows};
-    requests_.push_back({PointLight{box.min + at * extent, kRange * glm::length(extent)}});
+    lights_.push_back({{PointLight{box.min + at * extent, kRange * glm::length(extent)}}, kLocal});
   }
 }
 
@@ -30,27 +32,21 @@ void PaneLights::plan(const Camera& camera, const SceneBounds& bounds, const Pla
   pool.most_size = static_cast<int>(std::bit_floor(static_cast<unsigned>(map_size)));
   pool.least_size = std::min(pool.least_size, pool.most_size);
   pool.pool_width = pool.pool_height = std::max(pool.pool_width, pool.most_size);
+  pool.most_frames = 1;  // all maps are of this frame
   pool.plan = options;
-  memory_.resize(light_memory(requests_.size(), 0));
-  plan_ = plan_lights(camera, requests_, bounds, pool, memory_);
-  if (plan_.status == PlanStatus::invalid_input)
-    throw std::runtime_error("--by lights: " + std::string(plan_.invalid_field) + " is out of range");
-  own_.clear();
-  for (std::size_t i = 0; i < requests_.size(); ++i)
-    own_.push_back(make_plan(camera, requests_[i].light, bounds, light_options(pool, plan_.lights[i])));
+  pool_.emplace(lights_, pool);
+  const LightPlan& plan = pool_->plan(camera, bounds);
+  if (plan.status == PlanStatus::invalid_input)
+    throw std::runtime_error("--by lights: " + std::string(plan.invalid_field) + " is out of range");
 }
 
 render::FrameStats PaneLights::draw(render::Renderer& renderer, const Camera& camera,
                                     const render::PreparedFilter& filter, const render::FrameOptions& options,
                                     int only) const {
-  // A weak sun, so that the others show.
-  constexpr float kSun = 0.35f, kLocal = 0.6f;
-  std::vector<render::DrawnLight> lights;
-  for (std::size_t i = 0; i < requests_.size(); ++i) {
-    const bool shines = only < 0 || only == static_cast<int>(i);
-    lights.push_back({requests_[i].light, &own_[i], glm::vec3(!shines ? 0.0f : i == 0 ? kSun : kLocal)});
-  }
-  return renderer.draw({plan_, lights}, camera, filter, options);
+  std::vector<render::DrawnLight> lights = pool_->drawn();
+  for (std::size_t i = 0; i < lights.size(); ++i)
+    if (only >= 0 && only != static_cast<int>(i)) lights[i].color = glm::vec3(0.0f);
+  return renderer.draw({pool_->last(), lights}, camera, filter, options);
 }
 
 std::vector<glm::dvec3> PaneLights::reference(render::Renderer& plain, const Camera& camera,
@@ -61,12 +57,12 @@ std::vector<glm::dvec3> PaneLights::reference(render::Renderer& plain, const Cam
                               static_cast<std::size_t>(camera.height));
   render::FrameOptions options;
   options.aliasing = options.heat_map = options.cascade_tint = options.time_passes = false;
-  for (std::size_t light = 0; light < requests_.size(); ++light) {
+  for (std::size_t light = 0; light < lights_.size(); ++light) {
     draw(plain, camera, filter, options, static_cast<int>(light));
     const FloatImage alone = plain.light_sum();
-    const trace::SurfacePoints points =
-        trace::surface_points(tracer, camera, requests_[light].light, plain.positions(), plain.normals());
-    const trace::PaneReference left = trace::pane_reference(panes, points, requests_[light].light);
+    const trace::SurfacePoints points = trace::surface_points(tracer, camera, lights_[light].request.light,
+                                                              plain.positions(), plain.normals());
+    const trace::PaneReference left = trace::pane_reference(panes, points, lights_[light].request.light);
     for (std::size_t i = 0; i < sum.size(); ++i)
       sum[i] +=
           glm::dvec3(alone.values[3 * i], alone.values[3 * i + 1], alone.values[3 * i + 2]) * left.pixels[i];

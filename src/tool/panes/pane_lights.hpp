@@ -2,9 +2,10 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+#include <optional>
 #include <vector>
 
-#include "gnomon/lights.hpp"
+#include "gnomon/render/light_pool.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/translucent.hpp"
 #include "gnomon/trace/transmittance.hpp"
@@ -30,10 +31,8 @@ class PaneLights {
                                                   const trace::PaneTracer& panes) const;
 
  private:
-  std::vector<LightRequest> requests_;
-  std::vector<std::byte> memory_;
-  std::vector<ShadowPlan> own_;
-  LightPlan plan_;
+  std::vector<render::PooledLight> lights_;
+  std::optional<render::LightPool> pool_;
 };
 
 }  // namespace gnomon::tool
