@@ -12,6 +12,7 @@
 #include "base/fnv.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "named_in.hpp"
+#include "picture_words.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -25,8 +26,10 @@ std::string path_text(const CameraPath& path) {
   std::string text =
       fmt::format("{} {} {} {}", path.closed, path.fov_y_radians, path.near_depth, path.far_depth);
   if (path.height_world > 0.0) text += fmt::format(" orthographic {}", path.height_world);
-  for (const CameraKey& key : path.keys)
+  for (const CameraKey& key : path.keys) {
     text += " " + point_text(key.position) + " " + point_text(key.target);
+    if (key.up != CameraKey().up) text += " up " + point_text(key.up);
+  }
   return text;
 }
 
@@ -46,7 +49,7 @@ std::vector<Box> boxes_seen(const Scene& scene) {
 /// The path of one key that shows what a camera of the file does.
 CameraPath path_of(const SceneCamera& camera, const Scene& scene) {
   CameraPath path;
-  path.keys = {{camera.position, camera.position + camera.forward}};
+  path.keys = {camera_key(camera.position, camera.forward, camera.up)};
   if (camera.orthographic)
     path.height_world = camera.height_world;
   else
@@ -58,11 +61,6 @@ CameraPath path_of(const SceneCamera& camera, const Scene& scene) {
   // An orthographic camera may see from its own place on, and a path begins beyond.
   constexpr double kLeast = 1e-6;
   path.near_depth = std::max(camera.near_depth, kLeast * path.far_depth);
-  // A path's cameras stand upright, those that look straight down as well.
-  constexpr double kTurned = 1e-3;  // sine
-  const CameraAxes shown = camera_axes(path.at(0.0, 1, 1));
-  if (std::abs(glm::dot(camera.up, shown.right)) > kTurned || glm::dot(camera.up, shown.up) < 0.0)
-    warn("--camera " + camera.name + ": is tilted to a side, and is shown upright");
   return path;
 }
 
@@ -94,6 +92,9 @@ Option point_option(std::string name, std::optional<glm::dvec3>& point, std::str
 }
 
 std::vector<Option> camera_options(CameraWords& words) {
+  Option up = point_option("--eye-up", words.eye_up,
+                           "direction that points to the top of the picture of --eye; without it 0,1,0");
+  up.needs = "--eye";
   return {{.name = "--path",
            .target = &words.path,
            .help = "camera path, a JSON file, in place of the scene's own",
@@ -104,6 +105,7 @@ std::vector<Option> camera_options(CameraWords& words) {
            .word = "NAME"},
           point_option("--eye", words.eye, "position of the camera, world units; needs --target"),
           point_option("--target", words.target, "point that the camera looks at"),
+          std::move(up),
           {.name = "--orthographic",
            .target = &words.height_world,
            .help = "world units from the bottom of the picture to its top, by parallel rays; 0: of the path",
@@ -123,6 +125,8 @@ void check_camera(const CameraWords& words) {
   if (words.eye.has_value() != words.target.has_value())
     throw std::runtime_error("--eye and --target: give both, or neither");
   if (words.eye && *words.eye == *words.target) throw std::runtime_error("--target: must differ from --eye");
+  if (words.eye_up && *words.eye_up == glm::dvec3(0.0))
+    throw std::runtime_error("--eye-up: must not be zero");
   if (words.eye && !words.path.empty()) throw std::runtime_error("--eye: not with --path, which has its own");
   if (!words.of_file.empty() && (words.eye || !words.path.empty()))
     throw std::runtime_error("--camera: not with --path or --eye, which place another");
@@ -140,7 +144,7 @@ CameraPath camera_path(const CameraWords& words, const Scene& scene, double aspe
   if (!words.of_file.empty())
     path = path_of(named_in(scene.cameras, words.of_file, "--camera", "camera"), scene);
   if (words.eye) {
-    path.keys = {{*words.eye, *words.target}};
+    path.keys = {eye_key(words)};
     path.closed = false;
     const Sight sight = sight_from(*words.eye, boxes);
     path.near_depth = sight.near_depth;
@@ -156,6 +160,29 @@ CameraPath camera_path(const CameraWords& words, const Scene& scene, double aspe
   return path;
 }
 
+CameraKey eye_key(const CameraWords& words) {
+  CameraKey key{*words.eye, *words.target};
+  if (words.eye_up) key.up = *words.eye_up;
+  return key;
+}
+
+void fit_picture(const CameraWords& words, const Scene& scene, bool size_given, int& width, int& height) {
+  if (words.of_file.empty()) return;
+  const double aspect = named_in(scene.cameras, words.of_file, "--camera", "camera").aspect;
+  if (!(aspect > 0.0)) return;
+  const auto side = [](double pixels) {
+    return static_cast<int>(std::lround(std::clamp(pixels, 1.0 * kLeastPictureSide, 1.0 * kMaxPictureSide)));
+  };
+  const int narrower = std::min(width, side(height * aspect)), lower = std::min(height, side(width / aspect));
+  if (narrower == width && lower == height) return;
+  if (size_given)
+    return warn(
+        fmt::format("--camera {}: its width over height, {:.4g}, is not followed: --size {}x{} is given",
+                    one_line(words.of_file), aspect, width, height));
+  width = narrower;
+  height = lower;
+}
+
 std::string camera_text(const CameraWords& words) {
   std::string text;
   const auto add = [&text](const std::string& part) { text += (text.empty() ? "" : " ") + part; };
@@ -164,6 +191,7 @@ std::string camera_text(const CameraWords& words) {
                     fnv_of(path_text(load_camera_path(words.path)))));
   if (!words.of_file.empty()) add("camera " + one_line(words.of_file));
   if (words.eye) add("eye " + point_text(*words.eye) + " target " + point_text(*words.target));
+  if (words.eye_up) add("up " + point_text(*words.eye_up));
   if (words.height_world > 0.0) add(fmt::format("orthographic {}", words.height_world));
   if (words.near_depth > 0.0) add(fmt::format("near {}", words.near_depth));
   if (words.far_depth > 0.0) add(fmt::format("far {}", words.far_depth));

@@ -15,7 +15,8 @@ namespace gnomon::tool {
 /// --size of a command: WIDTHxHEIGHT, each kLeastPictureSide to kMaxPictureSide.
 inline constexpr int kLeastPictureSide = 16, kMaxPictureSide = 16'384;
 [[nodiscard]] inline Option size_option(int& width, int& height,
-                                        std::string help = "size of a frame in pixels, WIDTHxHEIGHT") {
+                                        std::string help = "size of a frame in pixels, WIDTHxHEIGHT",
+                                        bool* given = nullptr) {
   const auto set = [&width, &height](const std::string& text) {
     const std::size_t x = text.find('x');
     const auto number = [&](std::size_t begin, std::size_t end, int& value) {
@@ -31,7 +32,8 @@ inline constexpr int kLeastPictureSide = 16, kMaxPictureSide = 16'384;
   };
   return {.name = "--size",
           .target = ParsedWord{set, std::to_string(width) + "x" + std::to_string(height)},
-          .help = std::move(help)};
+          .help = std::move(help),
+          .given = given};
 }
 
 [[nodiscard]] inline std::vector<std::string> transition_names() {

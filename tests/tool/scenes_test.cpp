@@ -55,26 +55,85 @@ TEST(Scenes, are_opened_with_a_line_for_each_fault_by_every_command) {
   }
 }
 
-TEST(Scenes, whose_camera_is_turned_about_its_line_of_sight_are_shown_upright_with_a_line) {
+// A camera turned about the line of sight by an angle whose sine is 0.96, and one that looks down with west
+// at its top.
+TEST(Scenes, whose_camera_is_rolled_have_the_picture_of_the_same_camera_by_hand) {
   const TemporaryFolder folder;
   const std::string file = folder.write(
       "cameras.gltf",
       triangle_and(
-          R"({"name":"level","camera":0,"translation":[0,0,3]},)"
-          R"({"name":"rolled","camera":0,"translation":[0,0,3],"rotation":[0,0,0.3826834,0.9238795]},)"
-          R"({"name":"down","camera":0,"translation":[0,3,0],"rotation":[-0.7071068,0,0,0.7071068]},)"
-          R"({"name":"down turned","camera":0,"translation":[0,3,0],"rotation":[-0.5,0.5,0.5,0.5]})",
-          R"("cameras":[{"type":"perspective","perspective":{"yfov":0.8,"znear":0.1}}],)"));
-  const auto says = [&](const char* camera) {
-    const Finished finished = run_gnomon({"view", file, "--camera", camera, "--size", "32x18", "--context",
-                                          "osmesa", "--out", (folder.path() / "view.png").string()});
+          R"({"name":"level","camera":0,"translation":[0.2,0,3]},)"
+          R"({"name":"rolled","camera":0,"translation":[0.2,0,3],"rotation":[0,0,0.6,0.8]},)"
+          R"({"name":"down","camera":0,"translation":[0.2,3,0.1],"rotation":[-0.7071067811865476,0,0,0.7071067811865476]},)"
+          R"({"name":"down turned","camera":0,"translation":[0.2,3,0.1],"rotation":[-0.5,0.5,0.5,0.5]})",
+          R"("cameras":[{"type":"perspective","perspective":{"yfov":1.0471975511965976,"znear":0.1,"zfar":9}}],)"));
+  const auto picture = [&](const std::vector<std::string>& camera) {
+    const fs::path out = folder.path() / "view.png";
+    std::vector<std::string> words{"view",      file,     "--ground", "--size",    "96x54",
+                                   "--context", "osmesa", "--out",    out.string()};
+    words.insert(words.end(), camera.begin(), camera.end());
+    const Finished finished = run_gnomon(words);
     EXPECT_EQ(finished.exit_code, 0) << finished.err;
-    return finished.err.find("is tilted to a side, and is shown upright") != std::string::npos;
+    EXPECT_EQ(finished.err, "");
+    return content_of(out);
   };
-  EXPECT_FALSE(says("level"));
-  EXPECT_TRUE(says("rolled"));
-  EXPECT_FALSE(says("down"));
-  EXPECT_TRUE(says("down turned"));
+  const auto by_path = [&](const std::string& key) {
+    return picture({"--path", folder.write("path.json", R"({"keys":[)" + key + R"(],"near":0.1,"far":9})")});
+  };
+  const std::string level = picture({"--camera", "level"}), rolled = picture({"--camera", "rolled"});
+  EXPECT_TRUE(level != rolled);
+  EXPECT_TRUE(level == by_path(R"({"position":[0.2,0,3],"target":[0.2,0,2]})"));
+  EXPECT_TRUE(rolled == by_path(R"({"position":[0.2,0,3],"target":[0.2,0,2],"up":[-0.96,0.28,0]})"));
+  EXPECT_TRUE(rolled == picture({"--eye=0.2,0,3", "--target=0.2,0,2", "--eye-up=-0.96,0.28,0", "--near",
+                                 "0.1", "--far", "9"}));
+  const std::string down = picture({"--camera", "down"}), turned = picture({"--camera", "down turned"});
+  EXPECT_TRUE(down != turned);
+  EXPECT_TRUE(turned == by_path(R"({"position":[0.2,3,0.1],"target":[0.2,2,0.1],"up":[-1,0,0]})"));
+}
+
+TEST(Scenes, give_a_picture_its_width_over_height_by_their_camera_unless_a_size_is_given) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write(
+      "cameras.gltf", triangle_and(R"({"name":"tall","camera":0,"translation":[0,0,3]},)"
+                                   R"({"name":"wide","camera":1,"translation":[0,0,3]},)"
+                                   R"({"name":"free","camera":2,"translation":[0,0,3]})",
+                                   R"("cameras":[{"perspective":{"yfov":0.8,"znear":0.1,"aspectRatio":0.5}},)"
+                                   R"({"orthographic":{"xmag":8,"ymag":-2,"znear":0.1,"zfar":9}},)"
+                                   R"({"perspective":{"yfov":0.8,"znear":0.1}}],)"));
+  const auto size_of = [&](const char* command, const char* camera, bool given, std::string& err) {
+    const fs::path out = folder.path() / command;
+    const bool fly = command == std::string("fly");
+    std::vector<std::string> words{
+        command,  file,         "--camera", camera,  "--context",
+        "osmesa", "--map-size", "64",       "--out", out.string() + (fly ? "" : ".png")};
+    if (fly) words.insert(words.end(), {"--frames", "1"});
+    if (given) words.insert(words.end(), {"--size", "96x54"});
+    const Finished finished = run_gnomon(words);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    err = finished.err;
+    // Width and height stand in the header of a PNG file.
+    const std::string bytes =
+        content_of(fly ? out / "frame_0000_image.png" : fs::path(out.string() + ".png"));
+    const auto number = [&](std::size_t at) {
+      int value = 0;
+      for (std::size_t i = 0; i < 4; ++i) value = 256 * value + static_cast<unsigned char>(bytes.at(at + i));
+      return value;
+    };
+    return std::pair(number(16), number(20));
+  };
+  std::string err;
+  EXPECT_EQ(size_of("fly", "tall", false, err), std::pair(270, 540));
+  EXPECT_EQ(size_of("fly", "wide", false, err), std::pair(960, 240));
+  EXPECT_EQ(size_of("fly", "free", false, err), std::pair(960, 540));
+  EXPECT_EQ(err, "");
+  const auto [width, height] = size_of("view", "tall", false, err);
+  EXPECT_EQ(2 * width, height);
+  for (const char* command : {"fly", "view"}) {
+    EXPECT_EQ(size_of(command, "tall", true, err), std::pair(96, 54));
+    EXPECT_EQ(err,
+              "gnomon: warning: --camera tall: its width over height, 0.5, is not followed: --size 96x54 is "
+              "given\n");
+  }
 }
 
 std::vector<std::string> cells_of(const std::string& row) {

@@ -297,11 +297,12 @@ void print_json(const Options& options, const Flight& flight, const render::Cont
 
 }  // namespace
 
-Flight load_flight(const Options& options) {
+Flight load_flight(Options& options) {
   try {
     Flight flight;
     flight.scene = load_edited(options.scene, limits_of_triangles(options.max_triangles), options.edits);
     warn_of(flight.scene);
+    fit_picture(options.camera, flight.scene, options.size_given, options.width, options.height);
     flight.path = camera_path(options.camera, flight.scene, 1.0 * options.width / options.height);
     if (!options.animation.empty()) {
       flight.animation = find_animation(flight.scene.motion, options.animation);

@@ -23,8 +23,9 @@ struct Flight {
   [[nodiscard]] SceneBounds bounds() const noexcept { return boxes.bounds(); }
 };
 
-/// Loads scene and path. Throws std::runtime_error with what is wrong and where.
-[[nodiscard]] Flight load_flight(const Options& options);
+/// Loads scene and path, and sizes the picture as a camera of the file has it. Throws std::runtime_error with
+/// what is wrong and where.
+[[nodiscard]] Flight load_flight(Options& options);
 
 /// Poses the flight's boxes at this time since its first frame, and the renderer where there is one. Nothing
 /// without an animation.

@@ -28,6 +28,7 @@ struct Options {
   int frames = 8;
   bool frames_given = false;
   int width = 960, height = 540;
+  bool size_given = false;  ///< else a camera of the file may change it
   std::filesystem::path out = "out/flythrough";
   bool json = false;  ///< files and numbers as one line of JSON, in place of text
   /// The pictures are the shadow alone: black, its alpha the share of light that is missing.

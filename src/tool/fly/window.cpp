@@ -108,6 +108,13 @@ void on_key(GLFWwindow* window, int key, int, int action, int) {
   apply(viewer);
 }
 
+/// The camera where the user is.
+Camera camera_at(const Viewer& viewer, int width, int height) {
+  CameraPath still = viewer.flight.path;
+  still.keys = {viewer.eye};
+  return still.at(0.0, width, height);
+}
+
 void steer(Viewer& viewer, double seconds) {
   constexpr double kRadiansPerPixel = 0.003, kRadiansPerSecond = 1.2;
   glm::dvec2 mouse{0.0};
@@ -123,9 +130,7 @@ void steer(Viewer& viewer, double seconds) {
   turn(viewer.eye, axis(GLFW_KEY_RIGHT, GLFW_KEY_LEFT) * kRadiansPerSecond * seconds,
        axis(GLFW_KEY_UP, GLFW_KEY_DOWN) * kRadiansPerSecond * seconds);
 
-  Camera camera = viewer.flight.path.at(0.0, 16, 16);
-  camera.forward = viewer.eye.target - viewer.eye.position;
-  const CameraAxes axes = camera_axes(camera);
+  const CameraAxes axes = camera_axes(camera_at(viewer, 1, 1));
   const glm::dvec3 step = axes.forward * axis(GLFW_KEY_W, GLFW_KEY_S) +
                           axes.right * axis(GLFW_KEY_D, GLFW_KEY_A) +
                           glm::dvec3(0.0, axis(GLFW_KEY_E, GLFW_KEY_Q), 0.0);
@@ -140,14 +145,12 @@ Camera next_camera(Viewer& viewer, int width, int height, double seconds) {
     if (!viewer.options.frames_given)
       viewer.path_time = std::fmod(viewer.path_time + seconds / kFlightSeconds, 1.0);
     const Camera camera = viewer.flight.path.at(viewer.path_time, width, height);
-    viewer.eye = {camera.position, camera.position + camera.forward};
+    const CameraAxes axes = camera_axes(camera);
+    viewer.eye = camera_key(camera.position, axes.forward, axes.up);
     return camera;
   }
   steer(viewer, seconds);
-  Camera camera = viewer.flight.path.at(viewer.path_time, width, height);
-  camera.position = viewer.eye.position;
-  camera.forward = viewer.eye.target - viewer.eye.position;
-  return camera;
+  return camera_at(viewer, width, height);
 }
 
 void draw(Viewer& viewer, double seconds) {

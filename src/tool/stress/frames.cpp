@@ -30,7 +30,7 @@ bool view_state(const Json& frame, const std::string& scene, view::State& state)
   const CameraAxes axes = camera_axes(camera);
   state.scene = scene;
   state.panes = setting.panes;
-  state.eye = CameraKey{camera.position, camera.position + axes.forward};
+  state.eye = camera_key(camera.position, axes.forward, axes.up);
   state.fov_y_deg = 2.0 * view::kDegrees * std::atan(camera.top);
   state.near_depth = camera.near_depth;
   state.far_depth = camera.far_depth;

@@ -19,8 +19,10 @@ constexpr double kPathStep = 0.5;
 
 /// The camera of the frame that was drawn last.
 CameraKey drawn_eye(const Stage& stage) {
-  const Camera& camera = stage.camera();
-  return {camera.position, camera.position + camera.forward};
+  const CameraAxes axes = camera_axes(stage.camera());
+  CameraKey key = camera_key(stage.camera().position, axes.forward, axes.up);
+  key.target = key.position + stage.camera().forward;
+  return key;
 }
 
 void add_path_key(PathRecording& recording, const Stage& stage) {

@@ -108,6 +108,7 @@ std::string command_text(const State& state) {
             exact(light.point->range);
   if (state.eye)
     text += " --eye=" + point_word(state.eye->position) + " --target=" + point_word(state.eye->target);
+  if (state.eye && state.eye->up != CameraKey().up) text += " --eye-up=" + point_word(state.eye->up);
   if (state.height_world > 0.0) text += " --orthographic " + exact(state.height_world);
   if (state.near_depth > 0.0) text += " --near " + exact(state.near_depth);
   if (state.far_depth > 0.0) text += " --far " + exact(state.far_depth);

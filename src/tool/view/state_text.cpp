@@ -30,7 +30,9 @@ Json vector_json(const glm::dvec3& v) {
 }
 
 Json key_json(const CameraKey& key) {
-  return {{"position", vector_json(key.position)}, {"target", vector_json(key.target)}};
+  Json json{{"position", vector_json(key.position)}, {"target", vector_json(key.target)}};
+  if (key.up != CameraKey().up) json["up"] = vector_json(key.up);
+  return json;
 }
 
 Json clip_space_json(const ClipSpace& clip) {
@@ -200,8 +202,10 @@ CameraKey read_key(const Json& json, const std::string& path) {
   CameraKey result;
   reader.read("position", result.position);
   reader.read("target", result.target);
+  reader.read("up", result.up);
   reader.done();
   if (result.position == result.target) throw std::runtime_error(path + ": position and target must differ");
+  if (result.up == glm::dvec3(0.0)) throw std::runtime_error(path + ": up must not be zero");
   return result;
 }
 

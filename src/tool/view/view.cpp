@@ -36,6 +36,7 @@ struct Request {
   std::string light_of_file;  ///< by name or number; empty: none
   std::optional<glm::dvec3> light_position, light_direction;
   double light_outer_deg = 0.0, light_range = 0.0;
+  bool size_given = false;
   /// Options that set a part of the state, and whether each is given; on the heap, as their addresses are
   /// kept.
   std::vector<std::pair<std::string, std::unique_ptr<bool>>> settings;
@@ -80,11 +81,12 @@ void resolve_camera(const CameraWords& words, State& state) {
   if (words.height_world > 0.0) state.height_world = words.height_world;
   if (words.near_depth > 0.0) state.near_depth = words.near_depth;
   if (words.far_depth > 0.0) state.far_depth = words.far_depth;
-  if (words.eye) state.eye = CameraKey{*words.eye, *words.target};
+  if (words.eye) state.eye = eye_key(words);
 }
 
 /// Camera and light of the scene's file, for which it is read.
-void resolve_scene_words(const Request& request, State& state) {
+void resolve_scene_words(const Request& request, Options& options) {
+  State& state = options.state;
   const std::string& camera = request.camera.of_file;
   if (camera.empty() && request.light_of_file.empty()) return;
   Scene scene = load_scene(state.scene, limits_of_triangles(request.options.max_triangles));
@@ -97,7 +99,11 @@ void resolve_scene_words(const Request& request, State& state) {
       throw std::runtime_error(std::string("--scene-light ") + error.what());
     }
   }
-  if (!camera.empty()) take_camera(camera_path(request.camera, scene), state);
+  if (camera.empty()) return;
+  take_camera(camera_path(request.camera, scene), state);
+  // A window's picture is as wide as the window leaves it.
+  if (!options.out.empty())
+    fit_picture(request.camera, scene, request.size_given, options.width, options.height);
 }
 
 void resolve_playing(const Request& request, Playing& playing) {
@@ -172,7 +178,7 @@ Options resolved(const Request& request) {
   state.b = state.a;
   resolve_light(request, state.light);
   resolve_camera(request.camera, state);
-  resolve_scene_words(request, state);
+  resolve_scene_words(request, options);
   resolve_playing(request, state.playing);
   return options;
 }
@@ -197,7 +203,8 @@ std::vector<Option> run_options(Request& request) {
        .help = "draw the picture into this PNG file and open no window",
        .completion = Completion::files},
       size_option(options.width, options.height,
-                  "size of the window, or of the picture of --out, in pixels, WIDTHxHEIGHT"),
+                  "size of the window, or of the picture of --out, in pixels, WIDTHxHEIGHT",
+                  &request.size_given),
       context_option(options.context, " of --out"),
       {.name = "--exit-after",
        .target = &options.exit_after,

@@ -13,7 +13,7 @@ namespace {
 /// A state in which nothing has its default.
 State unusual() {
   State state = hangar();
-  state.eye = CameraKey{{1.5, 2.25, 3.0}, {-4.0, 1.0 / 3.0, 0.1}};
+  state.eye = CameraKey{{1.5, 2.25, 3.0}, {-4.0, 1.0 / 3.0, 0.1}, {0.25, -1.0, 0.5}};
   state.panes = true;
   state.edits = {true, {{{0, 1, 0}, 2.5}, {{-1, 0, 0.25}, 1}}, "simple.glb", UpAxis::z, true};
   state.frozen = CameraKey{{1.0, 2.0, 3.0}, {0.0, 0.0, 0.0}};
