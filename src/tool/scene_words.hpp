@@ -75,13 +75,16 @@ inline void warn_of(const Scene& scene) {
           sun_option(light)};
 }
 
+/// The word of --scene-light for all lights at once. A light of that name is still there by its number.
+inline constexpr std::string_view kAllLights = "all";
 /// --scene-light.
 [[nodiscard]] inline Option scene_light_option(std::string& name) {
-  return {.name = "--scene-light",
-          .target = &name,
-          .help = "light of the scene's file, by name or number, in place of --light",
-          .word = "NAME",
-          .excludes = {"--sun"}};
+  return {
+      .name = "--scene-light",
+      .target = &name,
+      .help = "light of the scene's file, by name or number, in place of --light; all: every light at once",
+      .word = "NAME",
+      .excludes = {"--sun"}};
 }
 
 [[nodiscard]] inline Option max_triangles_option(std::uint64_t& most) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <regex>
 #include <sstream>
+#include <tuple>
 
 #include "small_sweep.hpp"
 
@@ -133,6 +134,110 @@ TEST(Scenes, give_a_picture_its_width_over_height_by_their_camera_unless_a_size_
     EXPECT_EQ(err,
               "gnomon: warning: --camera tall: its width over height, 0.5, is not followed: --size 96x54 is "
               "given\n");
+  }
+}
+
+/// Lights by their JSON, each held by a node over the triangle.
+std::string triangle_under(const std::vector<std::string>& lights) {
+  std::string nodes, list;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    nodes += R"({"translation":[0.4,0.3,1],"extensions":{"KHR_lights_punctual":{"light":)" +
+             std::to_string(i) + "}}},";
+    list += (i > 0 ? "," : "") + lights[i];
+  }
+  std::string text = triangle_and(R"({"name":"front","camera":0,"translation":[0.3,0.3,2]})",
+                                  R"("cameras":[{"perspective":{"yfov":0.8,"znear":0.1,"zfar":9}}],)"
+                                  R"("extensions":{"KHR_lights_punctual":{"lights":[)" +
+                                      list + "]}},");
+  // Nodes of lights come last, and each is a root of its own.
+  const std::string last = R"("nodes":[{"mesh":0},)";
+  text.insert(text.find(last) + last.size(), nodes);
+  std::string roots = "0,1";
+  for (std::size_t i = 0; i < lights.size(); ++i) roots += "," + std::to_string(i + 2);
+  const std::string first = R"("scenes":[{"nodes":[)";
+  const std::size_t at = text.find(first) + first.size();
+  return text.replace(at, text.find(']', at) - at, roots);
+}
+
+const char* const kSun = R"({"type":"directional","name":"sun","intensity":3})";
+const char* const kOff = R"({"type":"point","name":"off","intensity":0})";
+const char* const kNamedAll = R"({"type":"point","name":"all","color":[1,0.5,0],"intensity":2})";
+
+TEST(Scenes, show_all_lights_of_their_file_at_once_and_count_those_that_are_omitted) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("lit.gltf", triangle_under({kSun, kOff, kNamedAll}));
+  const auto run = [&](std::vector<std::string> words, const std::string& light) {
+    words.insert(words.begin() + 1, file);
+    words.insert(words.end(),
+                 {"--camera", "front", "--scene-light", light, "--size", "96x54", "--context", "osmesa"});
+    return run_gnomon(words);
+  };
+  const std::string out = (folder.path() / "fly").string(), picture = (folder.path() / "view.png").string();
+  const auto fly = [&](const std::string& light, std::vector<std::string> more = {}) {
+    more.insert(more.begin(), {"fly", "--frames", "1", "--out", out});
+    return run(more, light);
+  };
+  const Finished all = fly("all", {"--json"});
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_NE(all.out.find(R"("lights":{"of_file":3,"drawn":2,"out_of_view":0,"dark":1,"beyond_limit":0})"),
+            std::string::npos)
+      << all.out;
+  const std::string of_all = content_of(folder.path() / "fly/frame_0000_image.png");
+  EXPECT_NE(fly("all").out.find("lights:   2 of 3 drawn, 1 without intensity or colour\n"),
+            std::string::npos);
+  // The viewer has the same picture.
+  const Finished viewed = run({"view", "--out", picture}, "all");
+  EXPECT_EQ(viewed.exit_code, 0) << viewed.err;
+  EXPECT_EQ(viewed.err, "gnomon: warning: --scene-light all: 2 of 3 drawn, 1 without intensity or colour\n");
+  EXPECT_EQ(content_of(picture), of_all);
+  // The light that is called so is there by its number.
+  EXPECT_EQ(fly("2").exit_code, 0);
+  EXPECT_NE(content_of(folder.path() / "fly/frame_0000_image.png"), of_all);
+  for (const std::vector<std::string>& beside :
+       std::vector<std::vector<std::string>>{{"--compare-warps", "none"},
+                                             {"--history"},
+                                             {"--visible-depths"},
+                                             {"--pages", "resolution"},
+                                             {"--shadow-only"}}) {
+    const Finished refused = fly("all", beside);
+    EXPECT_EQ(refused.exit_code, 2) << beside[0];
+    EXPECT_TRUE(refused.err.starts_with("gnomon: --scene-light all: " + beside[0])) << refused.err;
+  }
+  const Finished stores = fly("all", {"--filter", "vsm"});
+  EXPECT_EQ(stores.exit_code, 2);
+  EXPECT_NE(stores.err.find("filter vsm: stores texels"), std::string::npos) << stores.err;
+  for (const std::vector<std::string>& beside :
+       std::vector<std::vector<std::string>>{{"--view", "heat"},
+                                             {"--view", "truth"},
+                                             {"--pages", "resolution"},
+                                             {"--history"},
+                                             {"--linear-depth"}}) {
+    std::vector<std::string> words{"view", "--out", picture};
+    words.insert(words.end(), beside.begin(), beside.end());
+    const Finished refused = run(words, "all");
+    EXPECT_EQ(refused.exit_code, 2) << beside[0];
+    EXPECT_NE(refused.err.find("all lights of the file"), std::string::npos) << refused.err;
+  }
+}
+
+TEST(Scenes, without_a_light_that_shines_are_refused_where_all_are_wanted) {
+  const TemporaryFolder folder;
+  for (const auto& [name, lights, line] :
+       std::vector<std::tuple<const char*, std::vector<std::string>, std::string>>{
+           {"none.gltf", {}, "--scene-light all: the file has no light\n"},
+           {"dark.gltf",
+            {kOff, kOff},
+            "--scene-light all: the file's 2 lights have no intensity or colour\n"}}) {
+    const std::string file = folder.write(name, triangle_under(lights));
+    const Finished fly =
+        run_gnomon({"fly", file, "--scene-light", "all", "--frames", "1", "--size", "32x18", "--context",
+                    "osmesa", "--json", "--out", (folder.path() / "fly").string()});
+    EXPECT_EQ(fly.exit_code, 2);
+    EXPECT_EQ(fly.err, "gnomon: " + line);
+    const Finished view = run_gnomon({"view", file, "--scene-light", "all", "--size", "32x18", "--context",
+                                      "osmesa", "--out", (folder.path() / "view.png").string()});
+    EXPECT_EQ(view.exit_code, 2);
+    EXPECT_EQ(view.err, "gnomon: " + line);
   }
 }
 

@@ -22,6 +22,7 @@
 #include "gnomon/scene/image.hpp"
 #include "gnomon/scene/load.hpp"
 #include "interrupt.hpp"
+#include "lights_frame.hpp"
 #include "output.hpp"
 #include "page_frame.hpp"
 #include "plan_option.hpp"
@@ -86,6 +87,7 @@ struct Studio {
   render::PreparedFilter filter;
   ContactSheet sheet;
   PlanHistory history;
+  std::optional<AllLights> lights;
 };
 
 /// The frame once more under each warp that is compared, side by side.
@@ -149,7 +151,7 @@ FrameRow draw_page_frame(Studio& studio, int frame) {
     write_shadow(studio, frame);
     return drawn.row;
   }
-  if (studio.sheet.wants(frame)) studio.sheet.add(frame, drawn.lit, drawn.heat, drawn.levels);
+  if (studio.sheet.wants(frame)) studio.sheet.add(frame, {&drawn.lit, &drawn.heat, &drawn.levels});
   render::draw_heat_legend(drawn.heat);
   draw_legend_text(drawn.levels, drawn.level_text);
   draw_legend_text(drawn.cached, drawn.cached_text);
@@ -164,10 +166,34 @@ FrameRow draw_page_frame(Studio& studio, int frame) {
   return drawn.row;
 }
 
+FrameRow draw_lights_frame(Studio& studio, int frame) {
+  const Options& options = studio.options;
+  FrameRow row = studio.lights->draw(options, studio.flight, camera_of(options, studio.flight, frame),
+                                     studio.renderer, studio.filter);
+  row.frame = frame;
+  const Image lit = studio.renderer.image();
+  if (studio.sheet.wants(frame)) studio.sheet.add(frame, {&lit});
+  write_png(lit, options.out / fmt::format("frame_{:04}_image.png", frame));
+  return row;
+}
+
+/// The exposure is that of the frames on the contact sheet, the same for all.
+void expose(Studio& studio) {
+  const Options& options = studio.options;
+  for (int frame = 0; frame < options.frames; ++frame) {
+    if (!studio.sheet.wants(frame)) continue;
+    check_interrupt();
+    pose_frame(options, studio.flight, frame, &studio.renderer);
+    studio.lights->expose(options, studio.flight, camera_of(options, studio.flight, frame), studio.renderer,
+                          studio.filter);
+  }
+}
+
 FrameRow draw_frame(Studio& studio, int frame) {
   const Options& options = studio.options;
   pose_frame(options, studio.flight, frame, &studio.renderer);
   if (options.pages.on()) return draw_page_frame(studio, frame);
+  if (studio.lights) return draw_lights_frame(studio, frame);
   const Camera camera = camera_of(options, studio.flight, frame);
   const Light light = light_of(options, studio.flight.scene);
   const VisibleDepths depths = frame_depths(options, studio.flight, studio.renderer, studio.filter, camera);
@@ -196,7 +222,7 @@ FrameRow draw_frame(Studio& studio, int frame) {
 
   const Image lit = studio.renderer.image();
   Image heat = studio.renderer.heat_map(), tint = studio.renderer.cascade_tint();
-  if (studio.sheet.wants(frame)) studio.sheet.add(frame, lit, heat, tint);
+  if (studio.sheet.wants(frame)) studio.sheet.add(frame, {&lit, &heat, &tint});
   render::draw_heat_legend(heat);
   label_cascades(tint, timed.plan);
   const auto file = [&](const char* kind) {
@@ -211,10 +237,14 @@ FrameRow draw_frame(Studio& studio, int frame) {
 }
 
 /// Every frame's plan once, before anything is written: a flight is refused as a whole.
-void check_plans(const Options& options, Flight& flight) {
+void check_plans(const Options& options, Flight& flight, const std::optional<AllLights>& lights) {
   for (int frame = 0; frame < options.frames; ++frame) {
     const Camera camera = camera_of(options, flight, frame);
     pose_frame(options, flight, frame, nullptr);
+    if (lights) {
+      lights->check(options, flight, camera);
+      continue;
+    }
     const ShadowPlan plan = make_plan(camera, light_of(options, flight.scene), flight.bounds(), options.plan);
     if (plan.status == PlanStatus::invalid_input) {
       throw std::runtime_error(
@@ -241,13 +271,17 @@ Summary summary_of(const std::vector<FrameRow>& rows) {
   return summary;
 }
 
-void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
+void print_summary(const Options& options, const std::optional<AllLights>& lights,
+                   const std::vector<FrameRow>& rows) {
   const Summary s = summary_of(rows);
-  fmt::print(
-      "{} frames: {:.1f} ms a frame, slowest plan {:.1f} us, worst m p95 {:.3g}, {:.1f} % of pixels "
-      "undersampled\n",
-      rows.size(), s.milliseconds, static_cast<double>(s.slowest_plan_ns) * 1e-3, s.worst_p95,
-      s.undersampled * 100.0);
+  fmt::print("{} frames: {:.1f} ms a frame, slowest plan {:.1f} us", rows.size(), s.milliseconds,
+             static_cast<double>(s.slowest_plan_ns) * 1e-3);
+  if (lights) {
+    fmt::print("\nlights:   {}\n", to_string(lights->drawn(rows)));
+  } else {
+    fmt::print(", worst m p95 {:.3g}, {:.1f} % of pixels undersampled\n", s.worst_p95,
+               s.undersampled * 100.0);
+  }
   if (options.pages.on()) {
     const PageSummary pages = page_summary(rows);
     const bool moves = pages.share_cached == 0.0 && rows.size() > 1 && options.plan.fit != Fit::stable;
@@ -261,8 +295,8 @@ void print_summary(const Options& options, const std::vector<FrameRow>& rows) {
   fmt::print("numbers:  {}\n", (options.out / "frames.csv").string());
 }
 
-void print_json(const Options& options, const Flight& flight, const render::ContextInfo& context,
-                const std::vector<FrameRow>& rows) {
+void print_json(const Options& options, const Flight& flight, const std::optional<AllLights>& lights,
+                const render::ContextInfo& context, const std::vector<FrameRow>& rows) {
   using Json = nlohmann::ordered_json;
   const Summary s = summary_of(rows);
   const CastTriangles cast = cast_triangles(flight.scene);
@@ -283,6 +317,14 @@ void print_json(const Options& options, const Flight& flight, const render::Cont
             {"sheet", options.shadow_only ? Json() : Json((options.out / "contact_sheet.png").string())},
             {"numbers", (options.out / "frames.csv").string()},
             {"frames", frames_json(rows)}};
+  if (lights) {
+    const LightsDrawn drawn = lights->drawn(rows);
+    json["lights"] = {{"of_file", drawn.of_file},
+                      {"drawn", drawn.drawn},
+                      {"out_of_view", drawn.out_of_view},
+                      {"dark", drawn.dark},
+                      {"beyond_limit", drawn.beyond_limit}};
+  }
   if (options.pages.on()) {
     const PageSummary pages = page_summary(rows);
     json["pages"] = {{"policy", page_policy_name(options.pages)},
@@ -357,8 +399,9 @@ namespace {
 std::vector<FrameRow> draw_frames(Studio& studio, bool software) {
   const Options& options = studio.options;
   const auto write_rows = [&](const std::vector<FrameRow>& rows) {
-    // The first map's columns are the sums over all pages.
-    write_csv(rows, options.pages.on() ? 1 : options.plan.cascades, software, options.out / "frames.csv");
+    // The first map's columns are the sums over all pages, or over the maps of all lights.
+    write_csv(rows, options.pages.on() || studio.lights ? 1 : options.plan.cascades, software,
+              options.out / "frames.csv");
   };
   std::vector<FrameRow> rows;
   try {
@@ -385,9 +428,16 @@ std::string sheet_title(const Options& options) {
     return fmt::format("{}: pages of {}, {}, {}, {}", options.scene, options.pages.page_texels,
                        options.pages.policy->name, render::to_string(options.filter),
                        to_string(options.plan.fit));
+  if (options.all_lights())
+    return fmt::format("{}: all lights of the file, {}", options.scene, render::to_string(options.filter));
   return fmt::format("{}: {} maps of {}, {}{}", options.scene, options.plan.cascades,
                      options.plan.resolution.max_size, render::to_string(options.filter),
                      options.plan.fit == Fit::tight ? "" : fmt::format(", {}", to_string(options.plan.fit)));
+}
+
+std::vector<std::string> sheet_rows(const Options& options) {
+  if (options.all_lights()) return {"image"};
+  return {"image", "m", options.pages.on() ? "levels" : "maps"};
 }
 
 void print_scene(const Options& options, const Flight& flight, const render::ContextInfo& context) {
@@ -418,28 +468,34 @@ int fly_to_files(const Options& asked, Flight& flight) {
             page_refusal(options.pages, options.filter, options.plan, options.light.kind);
         !refusal.empty())
       throw std::runtime_error(refusal);
+  } else if (options.all_lights()) {
+    fit_pool_to_memory(options);
   } else {
     fit_maps_to_memory(options);
   }
-  check_plans(options, flight);
+  std::optional<AllLights> lights;
+  if (options.all_lights()) lights.emplace(flight.scene);
+  check_plans(options, flight, lights);
   make_folder("--out", options.out);
   watch_interrupts();
-  Studio studio{
-      options,
-      flight,
-      render::Renderer(flight.scene),
-      {},
-      ContactSheet(options.frames, options.width, options.height, options.pages.on() ? "levels" : "maps"),
-      {}};
-  studio.filter = studio.renderer.prepare(options.filter,
-                                          options.pages.on() ? render::Source::pages : render::Source::maps);
+  Studio studio{options,
+                flight,
+                render::Renderer(flight.scene),
+                {},
+                ContactSheet(options.frames, options.width, options.height, sheet_rows(options)),
+                {},
+                std::move(lights)};
+  studio.filter = studio.renderer.prepare(options.filter, options.pages.on() ? render::Source::pages
+                                                          : studio.lights    ? render::Source::lights
+                                                                             : render::Source::maps);
+  if (studio.lights) expose(studio);
   const std::vector<FrameRow> rows = draw_frames(studio, context->info().software);
   if (!options.shadow_only)
     write_png(studio.sheet.sheet(sheet_title(options)), options.out / "contact_sheet.png");
   if (options.json) {
-    print_json(options, flight, context->info(), rows);
+    print_json(options, flight, studio.lights, context->info(), rows);
   } else {
-    print_summary(options, rows);
+    print_summary(options, studio.lights, rows);
   }
   return 0;
 }

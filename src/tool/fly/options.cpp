@@ -12,6 +12,7 @@
 #include "filter_words.hpp"
 #include "gnomon/render/perceptual.hpp"
 #include "gnomon/scene/load.hpp"
+#include "lights_frame.hpp"
 #include "named_in.hpp"
 #include "picture_words.hpp"
 #include "plan_option.hpp"
@@ -64,8 +65,9 @@ void check_animation(const Options& options) {
         "--animation: not with --budget-ms and --target-error, which look at the scene at rest");
 }
 
-/// Options that mean whole maps.
-void check_beside_pages(const Options& options) {
+}  // namespace
+
+std::string_view for_whole_maps(const Options& options) {
   const std::array<std::pair<bool, const char*>, 8> of_maps{{
       {!options.compared_warps.empty(), "--compare-warps"},
       {options.history, "--history"},
@@ -78,8 +80,11 @@ void check_beside_pages(const Options& options) {
       {options.filter_precision > 0.0, "--filter-precision"},
   }};
   for (const auto& [given, name] : of_maps)
-    if (given) throw std::runtime_error(fmt::format("--pages: {} is for whole maps", name));
+    if (given) return name;
+  return {};
 }
+
+namespace {
 
 Options resolved(const Request& request) {
   Options options = request.options;
@@ -97,7 +102,11 @@ Options resolved(const Request& request) {
     throw std::runtime_error("--coarse-depths: not with --visible-depths, which reads the depths of a frame");
   resolve_budget(request, options);
   check_page_size(options.pages);
-  if (options.pages.on()) check_beside_pages(options);
+  if (const std::string_view other = for_whole_maps(options); options.pages.on() && !other.empty())
+    throw std::runtime_error(fmt::format("--pages: {} is for whole maps", other));
+  if (options.all_lights())
+    if (const std::string refusal = all_lights_refusal(options); !refusal.empty())
+      throw std::runtime_error(refusal);
   check_animation(options);
   check_camera(options.camera);
   return options;

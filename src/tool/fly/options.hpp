@@ -16,6 +16,7 @@
 #include "gnomon/scene/load.hpp"
 #include "gnomon/study/technique.hpp"
 #include "page_setting.hpp"
+#include "scene_words.hpp"
 
 namespace gnomon::tool::fly {
 
@@ -62,7 +63,7 @@ struct Options {
   double animation_fps = 30.0;   ///< frames in a second of the animation
   double animation_start = 0.0;  ///< time of the first frame, seconds
   LightPlacement light;
-  std::string light_of_file;  ///< by name or number, in place of it; empty: none
+  std::string light_of_file;  ///< by name or number, in place of it; kAllLights: all; empty: none
   /// What may be left out, of plans and of drawing.
   PruneRules prune;
   CameraWords camera;
@@ -72,7 +73,13 @@ struct Options {
   std::uint64_t max_triangles = LoadLimits{}.triangles;
   SceneEdits edits;
   std::vector<const Warp*> compared_warps;  ///< nullptr: chosen by the plan; none: no comparison
+
+  /// All lights of the file shine, in place of one.
+  [[nodiscard]] bool all_lights() const { return light_of_file == kAllLights; }
 };
+
+/// The first option given that only means the whole maps of one light; empty: none.
+[[nodiscard]] std::string_view for_whole_maps(const Options& options);
 
 /// The light of a flight through this scene. Throws std::runtime_error where the file has not the one named.
 [[nodiscard]] Light light_of(const Options& options, const Scene& scene);

@@ -83,27 +83,29 @@ std::string header(int cascades, bool software) {
   return line + "prefilter_passes,warps,omitted\n";
 }
 
-/// Statistics of pages are those of one map.
+/// Statistics of pages, and of many lights, are those of one map.
 int maps_of(const FrameRow& row) {
-  return row.pages ? 0 : row.stats.map_count;
+  return row.pages ? 0 : row.lights ? row.lights->maps : row.stats.map_count;
 }
 
 std::string line_of(const FrameRow& row, int cascades) {
   std::string line = fmt::format("{},{},{},", row.frame, to_string(row.status), row.plan_ns);
   for (const double ms : row.stats.milliseconds) line += fmt::format("{:.3f},", ms);
-  line +=
-      fmt::format("{},{},{:.5g},{:.5g},{:.5g},{:.5f},{},", maps_of(row), row.stats.texels, row.aliasing.p50,
-                  row.aliasing.p95, row.aliasing.max, row.aliasing.share_undersampled, row.aliasing.pixels);
+  line += fmt::format("{},{},", maps_of(row), row.stats.texels);
+  line += row.lights ? ",,,,,"
+                     : fmt::format("{:.5g},{:.5g},{:.5g},{:.5f},{},", row.aliasing.p50, row.aliasing.p95,
+                                   row.aliasing.max, row.aliasing.share_undersampled, row.aliasing.pixels);
   line += row.pages ? fmt::format("{},{},{},", row.pages->resident, row.pages->drawn,
                                   row.pages->resident - row.pages->drawn)
                     : ",,,";
   line += fmt::format("{},{},", row.stats.camera.triangles, row.stats.camera.draws);
   for (int i = 0; i < cascades; ++i) {
     const render::MapStats& map = row.stats.map[static_cast<std::size_t>(i)];
-    line += i < row.stats.map_count
-                ? fmt::format("{},{},{},{},{},{:.5g},", map.triangles, map.draws, map.instances, map.texels,
-                              map.age, row.m_bound[static_cast<std::size_t>(i)])
-                : ",,,,,,";
+    line +=
+        i < row.stats.map_count
+            ? fmt::format("{},{},{},{},{},{},", map.triangles, map.draws, map.instances, map.texels, map.age,
+                          row.lights ? "" : fmt::format("{:.5g}", row.m_bound[static_cast<std::size_t>(i)]))
+            : ",,,,,,";
   }
   for (const PruneSaving& saved : row.stats.saved)
     line += fmt::format("{},{},", saved.texels, saved.triangles);
@@ -221,15 +223,16 @@ nlohmann::ordered_json frames_json(const std::vector<FrameRow>& rows) {
                                 {"kept", row.pages->resident - row.pages->drawn},
                                 {"levels", row.pages->levels},
                                 {"target_m", row.pages->target_m}};
+    if (row.lights) frames.back()["lights_with_maps"] = row.lights->mapped;
   }
   return frames;
 }
 
-ContactSheet::ContactSheet(int frames, int width, int height, std::string tints)
+ContactSheet::ContactSheet(int frames, int width, int height, std::vector<std::string> rows)
     : frames_(frames),
       thumb_width_(std::min(width, kColumnWidth)),
       thumb_height_(std::max(1, static_cast<int>(std::lround(1.0 * thumb_width_ * height / width)))),
-      tints_(std::move(tints)) {}
+      rows_(std::move(rows)) {}
 
 bool ContactSheet::wants(int frame) const {
   const int columns = std::min(frames_, kMaxColumns);
@@ -240,27 +243,29 @@ bool ContactSheet::wants(int frame) const {
   return false;
 }
 
-void ContactSheet::add(int frame, const Image& lit, const Image& heat, const Image& tint) {
-  const auto thumb = [this](const Image& image) {
-    return render::shrunk(image, thumb_width_, thumb_height_);
-  };
-  columns_.push_back({frame, {thumb(lit), thumb(heat), thumb(tint)}});
+void ContactSheet::add(int frame, const std::vector<const Image*>& pictures) {
+  Column& column = columns_.emplace_back();
+  column.frame = frame;
+  for (const Image* picture : pictures)
+    column.pictures.push_back(render::shrunk(*picture, thumb_width_, thumb_height_));
 }
 
 Image ContactSheet::sheet(const std::string& title) const {
-  const char* const rows[3] = {"image", "m", tints_.c_str()};
   const int count = static_cast<int>(columns_.size());
   const int width = kGap + count * (thumb_width_ + kGap);
   const Heading title_text(title, width);
   const int heading = title_text.height();
-  Image sheet = render::blank_image(width, heading + 3 * (thumb_height_ + kGap + kLabel) + kGap, kPaper);
+  const int rows = static_cast<int>(rows_.size());
+  Image sheet = render::blank_image(width, heading + rows * (thumb_height_ + kGap + kLabel) + kGap, kPaper);
   title_text.draw(sheet);
   for (int c = 0; c < count; ++c) {
     const Column& column = columns_[static_cast<std::size_t>(c)];
-    for (int r = 0; r < 3; ++r) {
+    for (int r = 0; r < rows; ++r) {
+      const auto row = static_cast<std::size_t>(r);
       const int x = kGap + c * (thumb_width_ + kGap), y = heading + r * (thumb_height_ + kGap + kLabel);
-      render::draw_text(sheet, x + kGap, y + kGap, fmt::format("frame {} {}", column.frame, rows[r]), kInk);
-      render::paste(sheet, column.picture[r], x, y + kLabel);
+      render::draw_text(sheet, x + kGap, y + kGap, fmt::format("frame {} {}", column.frame, rows_[row]),
+                        kInk);
+      render::paste(sheet, column.pictures[row], x, y + kLabel);
     }
   }
   return sheet;

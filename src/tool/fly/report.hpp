@@ -32,6 +32,13 @@ struct PageCounts {
   double target_m = 0.0;  ///< error that they were opened for; larger than requested where the pool is small
 };
 
+/// All lights of a file in a frame.
+struct LightCounts {
+  int mapped = 0;             ///< lights that have maps
+  int maps = 0;               ///< of all lights
+  std::vector<char> in_view;  ///< as lights_in_view() has it
+};
+
 struct FrameRow {
   int frame = 0;
   PlanStatus status{};
@@ -39,6 +46,7 @@ struct FrameRow {
   render::FrameStats stats;
   PixelAliasing aliasing;
   std::optional<PageCounts> pages;         ///< in place of maps
+  std::optional<LightCounts> lights;       ///< where all of a file shine
   std::array<double, kMaxMaps> m_bound{};  ///< of each map, over all that is in view; of all pages at once
   std::string warps;                       ///< of each map, with its kappa
   std::string omitted;                     ///< what the plan left out, and why
@@ -66,21 +74,22 @@ void write_csv(const std::vector<FrameRow>& rows, int cascades, bool software,
 /// Small versions of some frames' pictures, evenly chosen: a column per frame, a row per kind of picture.
 class ContactSheet {
  public:
-  /// `tints`: name of the last row of pictures.
-  ContactSheet(int frames, int width, int height, std::string tints = "maps");
+  /// `rows`: names of the pictures of a frame.
+  ContactSheet(int frames, int width, int height, std::vector<std::string> rows);
   /// True where this frame has a column.
   [[nodiscard]] bool wants(int frame) const;
-  void add(int frame, const Image& lit, const Image& heat, const Image& tint);
+  /// A picture for each row.
+  void add(int frame, const std::vector<const Image*>& pictures);
   [[nodiscard]] Image sheet(const std::string& title) const;
 
  private:
   static constexpr int kMaxColumns = 8, kColumnWidth = 320;
   struct Column {
     int frame;
-    Image picture[3];
+    std::vector<Image> pictures;
   };
   int frames_, thumb_width_, thumb_height_;
-  std::string tints_;
+  std::vector<std::string> rows_;
   std::vector<Column> columns_;
 };
 

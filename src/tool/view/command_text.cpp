@@ -8,6 +8,7 @@
 #include "gnomon/casefile/casefile.hpp"
 #include "picture_words.hpp"
 #include "plan_option.hpp"
+#include "scene_words.hpp"
 #include "state.hpp"
 
 namespace gnomon::tool::view {
@@ -93,6 +94,7 @@ std::string command_text(const State& state) {
   add_settings(state.a, text);
   const LightState& light = state.light;
   const LightPlacement none;
+  if (light.all) text += " --scene-light " + std::string(kAllLights);
   if (light.sun.kind != none.kind) text += " --light " + std::string(to_string(light.sun.kind));
   if (light.sun.elevation_deg != none.elevation_deg)
     text += " --light-elevation-deg " + exact(light.sun.elevation_deg);

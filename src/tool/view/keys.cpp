@@ -310,7 +310,8 @@ void mouse(State& state, const Drawing& drawing, Display& display) {
                   (static_cast<double>(io.MouseWheel) * stage.loaded().path.far_depth / kSteps));
   }
   display.probed.reset();
-  if (over && display.probing && !button.moves() && stage.tracer() != nullptr && state.view != View::map)
+  if (over && display.probing && !button.moves() && stage.tracer() != nullptr && state.view != View::map &&
+      !state.light.all)
     display.probed = probe(*stage.tracer(), stage.side(0).drawn, stage.camera(), stage.light(), x, y,
                            stage.side(0).page_plan());
 }
@@ -318,7 +319,7 @@ void mouse(State& state, const Drawing& drawing, Display& display) {
 }  // namespace
 
 std::optional<ScreenLine> light_handle(const State& state, const Stage* stage) {
-  if (stage == nullptr || state.view == View::map) return {};
+  if (stage == nullptr || state.view == View::map || state.light.all) return {};
   const Light& light = stage->light();
   const Camera& camera = stage->camera();
   WorldLine axis;

@@ -13,6 +13,13 @@ namespace {
 
 void file_lights(App& app) {
   if (app.drawing.stage == nullptr) return;
+  bool& all = app.document.state.light.all;
+  if (all || !app.drawing.stage->loaded().scene.lights.empty()) {
+    ImGui::Checkbox("all lights of the file", &all);
+    tooltip("each with its colour and intensity; in the view lit");
+    const Side& side = app.drawing.stage->side(0);
+    if (all && side.lights) ImGui::TextWrapped("%s", to_string(side.lights_drawn).c_str());
+  }
   choose_of_file(
       "light of the file", app.drawing.stage->loaded().scene.lights, app.display,
       [&](const SceneLight& light, std::size_t) { app.document.state.light = light_state(light); });
@@ -61,6 +68,7 @@ void local_light(LightState& state, const Box& scene) {
 void light_tab(App& app) {
   LightState& light = app.document.state.light;
   file_lights(app);
+  if (light.all) return;
   int kind = static_cast<int>(light.sun.kind);
   for (const LightKind one : {LightKind::sun, LightKind::spot, LightKind::point}) {
     if (one != LightKind::sun) ImGui::SameLine();

@@ -76,9 +76,28 @@ std::string memory_refusal(const PlanOptions& plan, const Settings& settings, bo
   return fmt::format("map_size {}: {} such maps do not fit ({})", size, maps, fitting.why);
 }
 
+/// Why all lights of a file cannot shine in this state; empty: they can.
+std::string refusal_of_all_lights(const State& state, const Settings& settings) {
+  constexpr const char* kAll = "all lights of the file";
+  if (state.view != View::lit)
+    return fmt::format("view {} is of one light, not of {}",
+                       view_names()[static_cast<std::size_t>(state.view)].name, kAll);
+  if (state.comparison != Comparison::off && state.b_is_truth)
+    return fmt::format("exact rays are of one light, not of {}", kAll);
+  if (state.frozen) return fmt::format("no frozen camera with {}", kAll);
+  if (settings.pages.on()) return fmt::format("no pages with {}", kAll);
+  if (settings.identifiers) return fmt::format("no {} with {}", kIdentifiers, kAll);
+  if (settings.visible_depths) return fmt::format("no visible_depths with {}", kAll);
+  if (settings.linear_depth) return fmt::format("no linear_depth with {}", kAll);
+  if (settings.history) return fmt::format("no history with {}", kAll);
+  if (!settings.plan.warp.shape->affine)
+    return fmt::format("no {} with shape {}: its maps bend lines", kAll, settings.plan.warp.shape->name);
+  return {};
+}
+
 /// The name of what a side compiles.
-std::string program_text(const Settings& settings) {
-  return (settings.pages.on() ? "pages " : "") + filter_text(settings);
+std::string program_text(const Settings& settings, bool all_lights) {
+  return (all_lights ? "lights " : settings.pages.on() ? "pages " : "") + filter_text(settings);
 }
 
 }  // namespace
@@ -124,16 +143,18 @@ void Stage::cut() noexcept {
   for (Side& side : sides_) side.history.clear();
 }
 
-bool Stage::is_compiled(const Settings& settings) const {
-  return std::find(compiled_.begin(), compiled_.end(), program_text(settings)) != compiled_.end();
+bool Stage::is_compiled(const Settings& settings, bool all_lights) const {
+  return std::find(compiled_.begin(), compiled_.end(), program_text(settings, all_lights)) != compiled_.end();
 }
 
-render::PreparedFilter Stage::prepare(const Settings& settings) {
-  if (!is_compiled(settings)) compiled_.push_back(program_text(settings));
+render::PreparedFilter Stage::prepare(const Settings& settings, bool all_lights) {
+  if (!is_compiled(settings, all_lights)) compiled_.push_back(program_text(settings, all_lights));
   using render::Source;
   if (settings.identifiers)
     return renderer_.prepare(render::filters::hard, Source::identifiers(*settings.identifiers));
-  return renderer_.prepare(settings.filter, settings.pages.on() ? Source::pages : Source::maps);
+  return renderer_.prepare(settings.filter, all_lights            ? Source::lights
+                                            : settings.pages.on() ? Source::pages
+                                                                  : Source::maps);
 }
 
 bool Stage::compile_ahead(bool by_pages) {
@@ -170,6 +191,9 @@ double Stage::time_frame(const State& state, Timed what) {
     const ShadowPlan plan = make_plan(camera_, light_, posed_.bounds(), options);
     plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
     stats = renderer_.draw(plan, camera_, renderer_.prepare(render::filters::hard), frame);
+  } else if (sides_[0].lights) {
+    const render::LightPool& pool = *sides_[0].lights;
+    stats = renderer_.draw({pool.last(), pool.drawn(exposure_)}, camera_, prepare(state.a, true), frame);
   } else if (sides_[0].pages) {
     stats = sides_[0].pages->draw(renderer_, camera_, prepare(state.a), frame);
   } else {
@@ -183,6 +207,7 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
   const SceneBounds bounds = posed_.bounds();
   const PlanOptions options = plan_options_of(settings);
   side.pages.reset();
+  side.lights.reset();
   side.plan_camera = planned;
   if (settings.pages.on()) {
     const LightKind kind = std::holds_alternative<PointLight>(light)  ? LightKind::point
@@ -214,6 +239,24 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
   return {};
 }
 
+std::string Stage::plan_lights_of(const State& state, const Settings& settings, const Camera& camera,
+                                  Side& side) {
+  if (std::string refusal = refusal_of_all_lights(state, settings); !refusal.empty()) return refusal;
+  const FileLights lights = file_lights(loaded_->scene);
+  const PlanOptions options = plan_options_of(settings);
+  if (std::string refusal = memory_refusal(options, settings, !loaded_->panes.instances.empty());
+      !refusal.empty())
+    return refusal;
+  side = {};
+  side.plan_camera = camera;
+  side.lights = std::make_shared<render::LightPool>(lights.lights, pool_options(options));
+  const auto begin = Clock::now();
+  const LightPlan& plan = side.lights->plan(camera, posed_.bounds());
+  side.plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+  side.lights_drawn = lights_drawn(lights, lights_in_view(plan));
+  return refused_light(plan, side.lights->lights());
+}
+
 Light Stage::held_light(const State& state, const Camera& camera,
                         std::shared_ptr<const VisibleSurfaces>& surfaces) {
   Light light = light_of(state.light, loaded_->scene.bounds_world);
@@ -237,17 +280,19 @@ std::string Stage::make_plans(const State& state, int width, int height) {
   const Camera eye = eye_camera(state, loaded_->path, posed_.boxes(), width, height);
   const Camera planned = state.frozen ? frozen_camera(state, loaded_->path, width, height) : eye;
   std::shared_ptr<const VisibleSurfaces> surfaces;
-  const Light light = held_light(state, planned, surfaces);
+  const bool all = state.light.all;
+  const Light light = all ? light_ : held_light(state, planned, surfaces);
   const bool both = state.comparison != Comparison::off && !state.b_is_truth;
   std::array<Side, 2> next = sides_;
   for (int i = 0; i < (both ? 2 : 1); ++i) {
     const Settings& settings = i == 0 ? state.a : state.b;
     Side& side = next[static_cast<std::size_t>(i)];
-    if (std::string refusal = plan_side(settings, planned, light, surfaces, side); !refusal.empty())
-      return refusal;
+    std::string refusal = all ? plan_lights_of(state, settings, planned, side)
+                              : plan_side(settings, planned, light, surfaces, side);
+    if (!refusal.empty()) return refusal;
     side.drawn = state.frozen ? from_frozen(side.plan, planned, eye) : side.plan;
     // Throws where a shader does not compile: before anything of the last picture is gone.
-    (void)prepare(settings);
+    (void)prepare(settings, all);
   }
   sides_ = next;
   camera_ = eye;
@@ -266,8 +311,9 @@ std::string Stage::draw(const State& state, int width, int height, bool settled)
   if (std::string refusal = make_plans(state, width, height); !refusal.empty()) return refusal;
   unfinished_ = false;
   for (Canvas* canvas : {&canvas_, &canvas_a_, &canvas_b_}) canvas->resize(width, height);
-  wants_truth_ = state.view == View::misclassified || state.view == View::truth || counts_errors_ ||
-                 (state.comparison != Comparison::off && state.b_is_truth);
+  wants_truth_ =
+      !state.light.all && (state.view == View::misclassified || state.view == View::truth || counts_errors_ ||
+                           (state.comparison != Comparison::off && state.b_is_truth));
   if (!wants_truth_) truth_.stop();
   std::optional<FloatImage> mask_before;
   if (!moved && light_before == light_text(light_)) mask_before = mask_of_plan_before(state, before);
@@ -297,6 +343,22 @@ std::optional<FloatImage> Stage::mask_of_plan_before(const State& state, const S
   return renderer_.mask();
 }
 
+void Stage::draw_lights(const State& state, const Settings& settings, Side& side) {
+  const render::LightPool& pool = *side.lights;
+  const render::PreparedFilter filter = prepare(settings, true);
+  render::FrameOptions frame = frame_options(state, settings, light_);
+  frame.light = nullptr;
+  const auto draw = [&] {
+    const double exposure = exposure_ > 0.0 ? exposure_ : 1.0;
+    side.stats = renderer_.draw({pool.last(), pool.drawn(exposure)}, camera_, filter, frame);
+  };
+  draw();
+  // The first picture with light in it says how bright all of them are.
+  if (exposure_ > 0.0) return;
+  exposure_ = render::exposure_of(renderer_.light_sum());
+  if (exposure_ > 0.0) draw();
+}
+
 void Stage::draw_pages(const State& state, const Settings& settings, Side& side, bool settled) {
   const render::PreparedFilter filter = prepare(settings);
   render::FrameOptions frame = frame_options(state, settings, light_);
@@ -324,7 +386,9 @@ Image Stage::side_legend(const State& state, const Side& side) const {
 
 void Stage::draw_side(const State& state, const Settings& settings, Side& side, Canvas& canvas,
                       bool settled) {
-  if (side.pages) {
+  if (side.lights) {
+    draw_lights(state, settings, side);
+  } else if (side.pages) {
     draw_pages(state, settings, side, settled);
   } else {
     side.stats =
@@ -423,6 +487,9 @@ std::string side_text(const char* name, const Settings& settings, const Side& si
   if (side.pages)
     return fmt::format("{}: {} pages of {}, {}, {}", name, side.stats.pages, settings.pages.page_texels,
                        settings.pages.policy->name, render::to_string(settings.filter));
+  if (side.lights)
+    return fmt::format("{}: {} lights with maps, {}", name, side.lights->last().mapped,
+                       filter_text(settings));
   std::string text =
       fmt::format("{}: {} map{} of {}, {}", name, side.plan.map_count, side.plan.map_count == 1 ? "" : "s",
                   settings.plan.resolution.max_size, filter_text(settings));

@@ -8,10 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "all_lights.hpp"
 #include "canvas.hpp"
 #include "frame_pages.hpp"
 #include "gnomon/measure.hpp"
 #include "gnomon/motion.hpp"
+#include "gnomon/render/light_pool.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "gnomon/scene/scene.hpp"
 #include "gnomon/trace/tracer.hpp"
@@ -54,6 +56,9 @@ struct Side {
   std::optional<double> flips;
   PlanHistory history;
   std::shared_ptr<FramePages> pages;  ///< in place of maps; nullptr: off
+  /// All lights of the file, in place of the maps of one; nullptr: off.
+  std::shared_ptr<render::LightPool> lights;
+  LightsDrawn lights_drawn;
 
   /// The texels that an index of the mask names; nullptr: none.
   [[nodiscard]] const ShadowMap* map_of(int index) const noexcept;
@@ -109,8 +114,9 @@ class Stage {
   /// Compiles one more of the filters that no state has used yet, for maps or for pages; false where all are
   /// compiled.
   bool compile_ahead(bool by_pages);
-  /// True where the filter's programs are compiled already, for pages where the settings have them.
-  [[nodiscard]] bool is_compiled(const Settings& settings) const;
+  /// True where the filter's programs are compiled already, for pages where the settings have them, or for
+  /// all lights of the file.
+  [[nodiscard]] bool is_compiled(const Settings& settings, bool all_lights = false) const;
   /// True where a page policy that reads the picture would refine the last one, once it is settled.
   [[nodiscard]] bool unfinished() const noexcept { return unfinished_; }
   /// Forgets what plans carry from frame to frame: after a cut.
@@ -125,8 +131,12 @@ class Stage {
   [[nodiscard]] std::string plan_side(const Settings& settings, const Camera& planned, const Light& light,
                                       std::shared_ptr<const VisibleSurfaces>& surfaces, Side& side);
   [[nodiscard]] std::optional<FloatImage> mask_of_plan_before(const State& state, const Side& before);
+  /// Plans all lights of the file for one side.
+  [[nodiscard]] std::string plan_lights_of(const State& state, const Settings& settings, const Camera& camera,
+                                           Side& side);
+  void draw_lights(const State& state, const Settings& settings, Side& side);
   void draw_pages(const State& state, const Settings& settings, Side& side, bool settled);
-  [[nodiscard]] render::PreparedFilter prepare(const Settings& settings);
+  [[nodiscard]] render::PreparedFilter prepare(const Settings& settings, bool all_lights = false);
   [[nodiscard]] Image side_legend(const State& state, const Side& side) const;
   void draw_map_view(const State& state, Side& side, Canvas& canvas);
   void want_truth(bool settled);
@@ -142,6 +152,7 @@ class Stage {
   Camera camera_;
   Light light_;
   glm::dvec3 held_sun_{0.0};  ///< of the last frame; no length: none is held
+  double exposure_ = 0.0;     ///< of all lights of the file; 0: no picture had light yet
   Truth truth_;
   bool wants_truth_ = false, unfinished_ = false, counts_errors_ = false, counts_flips_ = false;
 };

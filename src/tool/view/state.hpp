@@ -68,6 +68,7 @@ struct LightState {
   LightPlacement sun;  ///< its kind decides which of these is used
   std::optional<SpotLight> spot;
   std::optional<PointLight> point;
+  bool all = false;  ///< in place of it all lights of the scene's file shine, each as the file has it
 };
 
 /// The lines that are drawn over the picture while the plan's camera is frozen.

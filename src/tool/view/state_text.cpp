@@ -108,6 +108,7 @@ Json light_json(const LightState& light) {
   Json json{{"type", to_string(light.sun.kind)},
             {"elevation_deg", light.sun.elevation_deg},
             {"azimuth_deg", light.sun.azimuth_deg}};
+  if (light.all) json["all"] = true;
   if (light.spot)
     json["spot"] = {{"position", vector_json(light.spot->position)},
                     {"direction", vector_json(light.spot->direction)},
@@ -310,6 +311,7 @@ LightState read_light(const Json& json) {
   reader.read_name("type", light.sun.kind, {"sun", "spot", "point"});
   reader.read("elevation_deg", light.sun.elevation_deg, 0.1, 90.0);
   reader.read("azimuth_deg", light.sun.azimuth_deg, -360.0, 360.0);
+  reader.read("all", light.all);
   if (const Json* spot = reader.take("spot")) {
     Reader fields(*spot, "light.spot");
     light.spot.emplace();

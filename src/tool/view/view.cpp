@@ -87,12 +87,14 @@ void resolve_camera(const CameraWords& words, State& state) {
 /// Camera and light of the scene's file, for which it is read.
 void resolve_scene_words(const Request& request, Options& options) {
   State& state = options.state;
-  const std::string& camera = request.camera.of_file;
-  if (camera.empty() && request.light_of_file.empty()) return;
+  const std::string &camera = request.camera.of_file, &light_word = request.light_of_file;
+  state.light.all = light_word == kAllLights;
+  const bool one_light = !light_word.empty() && !state.light.all;
+  if (camera.empty() && !one_light) return;
   Scene scene = load_scene(state.scene, limits_of_triangles(request.options.max_triangles));
   turn_up(state.edits.up, scene);
-  if (!request.light_of_file.empty()) {
-    const SceneLight& light = named_in(scene.lights, request.light_of_file, "--scene-light", "light");
+  if (one_light) {
+    const SceneLight& light = named_in(scene.lights, light_word, "--scene-light", "light");
     try {
       state.light = light_state(light);
     } catch (const std::runtime_error& error) {
@@ -338,6 +340,8 @@ int draw_to_file(const Options& options) {
     bar.clear();
     draw();
   }
+  if (const LightsDrawn& lights = stage.side(0).lights_drawn; lights.drawn < lights.of_file)
+    warn("--scene-light all: " + to_string(lights));
   const Image image = stage.canvas().image();
   render::check_context();
   if (options.out.has_parent_path()) make_folder("--out", options.out.parent_path());

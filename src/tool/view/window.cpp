@@ -271,8 +271,8 @@ class Loop {
   bool wait_for_filter() {
     const State& state = document_.state;
     const bool both = state.comparison != Comparison::off;
-    const bool unknown =
-        !drawing_.stage->is_compiled(state.a) || (both && !drawing_.stage->is_compiled(state.b));
+    const bool unknown = !drawing_.stage->is_compiled(state.a, state.light.all) ||
+                         (both && !drawing_.stage->is_compiled(state.b, state.light.all));
     const bool wait = unknown && !drawing_.compiling;
     drawing_.compiling = wait;
     return wait;

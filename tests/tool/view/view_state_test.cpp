@@ -26,6 +26,7 @@ State unusual() {
   state.light.sun = {LightKind::spot, 12.5, -33.0};
   state.light.spot = SpotLight{{1, 9, 2}, {0.1, -1, 0.2}, 0.7, 55.5};
   state.light.point = PointLight{{3, 2, 1}, 44.0};
+  state.light.all = true;
   state.a.plan.cascades = 3;
   state.a.plan.split.scheme = SplitScheme::given;
   state.a.plan.split.given[0] = 3.5;
@@ -80,6 +81,8 @@ TEST(ViewState, reads_back_what_it_wrote) {
   EXPECT_EQ(back.b.pages, unusual().b.pages);
   EXPECT_EQ(back.height_world, 12.25);
   EXPECT_EQ(back.light.spot->range, 55.5);
+  EXPECT_TRUE(back.light.all);
+  EXPECT_EQ(back.eye->up, glm::dvec3(0.25, -1.0, 0.5));
   ASSERT_EQ(back.path.size(), 2u);
   EXPECT_EQ(back.path[1].position, glm::dvec3(1.0, 1.0, 2.5));
   EXPECT_FALSE(read_state(state_text(State{})).eye);
