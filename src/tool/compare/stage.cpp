@@ -19,8 +19,8 @@ Stage::Stage(const Sweep& sweep, const std::string& scene, ExactResults exact)
       exact_(std::move(exact)),
       view_(scene, sweep.light, sweep.camera, limits_of_triangles(sweep.max_triangles), sweep.edits) {
   if (sweep.local_lights > 0) {
-    pool_ = LightPool(local_lights(sweep.local_lights, view_.scene().bounds_world));
-    view_.set_light(pool_.light(static_cast<std::size_t>(sweep.local_light)));
+    shares_ = TexelShares(local_lights(sweep.local_lights, view_.scene().bounds_world));
+    view_.set_light(shares_.light(static_cast<std::size_t>(sweep.local_light)));
   }
   if (!sweep.animation.empty()) {
     animation_ = find_animation(view_.scene().motion, sweep.animation);
@@ -85,7 +85,7 @@ ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
   }
   const PlanOptions options =
       sweep_.local_lights > 0 && entry.shares_texels
-          ? pool_.options_of(static_cast<std::size_t>(sweep_.local_light), seen, view_.bounds(), entry)
+          ? shares_.options_of(static_cast<std::size_t>(sweep_.local_light), seen, view_.bounds(), entry)
           : entry.plan;
   return make_plan(seen, view_.light(), view_.bounds(), options);
 }

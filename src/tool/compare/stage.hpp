@@ -10,9 +10,9 @@
 #include "gnomon/scene/coarse_view.hpp"
 #include "gnomon/scene/pose.hpp"
 #include "gnomon/trace/reference.hpp"
-#include "light_pool.hpp"
 #include "scene_view.hpp"
 #include "sweep.hpp"
+#include "texel_shares.hpp"
 #include "visible_surfaces.hpp"
 
 namespace gnomon::tool {
@@ -80,7 +80,7 @@ class Stage {
   const Sweep& sweep_;
   ExactResults exact_;
   mutable CoarseView coarse_;  ///< scratch
-  LightPool pool_;             ///< of many lights
+  TexelShares shares_;         ///< of many lights
   std::vector<View> views_;
   SceneView view_;
   At at_ = At::frame;

@@ -4,7 +4,7 @@
 #include <fstream>
 #include <set>
 
-#include "compare/light_pool.hpp"
+#include "compare/texel_shares.hpp"
 #include "small_sweep.hpp"
 
 namespace gnomon::test {
@@ -183,7 +183,7 @@ TEST(StudyFile, drops_a_field_that_does_not_go_with_one_of_a_view) {
   EXPECT_EQ(lights, (std::set<std::string>{"spot 1 of 2", "point 2 of 2", "point"}));
 }
 
-TEST(LightPool, gives_lights_sizes_of_their_own_within_the_texels_of_equal_maps) {
+TEST(TexelShares, gives_lights_sizes_of_their_own_within_the_texels_of_equal_maps) {
   const Box ground{{-30.0, -1.0, -30.0}, {30.0, 0.0, 30.0}}, house{{-4.0, 0.0, -8.0}, {4.0, 6.0, -2.0}};
   const std::vector<Box> boxes{ground, house};
   const SceneBounds bounds{boxes, boxes};
@@ -200,11 +200,11 @@ TEST(LightPool, gives_lights_sizes_of_their_own_within_the_texels_of_equal_maps)
   std::vector<std::byte> memory(light_memory(requests.size(), 0));
   const LightPlan equal = plan_lights(gnomon::View(camera), requests, bounds, options, memory);
   ASSERT_GT(equal.texels, 0);
-  const tool::LightPool pool(lights);
+  const tool::TexelShares shares(lights);
   std::int64_t texels = 0;
   std::set<int> sizes;
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    const int size = pool.options_of(i, gnomon::View(camera), bounds, entry).resolution.max_size;
+    const int size = shares.options_of(i, gnomon::View(camera), bounds, entry).resolution.max_size;
     if (equal.lights[i].map_count == 0) continue;
     sizes.insert(size);
     texels += std::int64_t{equal.lights[i].map_count} * size * size;

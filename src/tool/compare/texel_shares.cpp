@@ -1,5 +1,5 @@
 // How do the local lights of a view share texels?
-#include "light_pool.hpp"
+#include "texel_shares.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -8,12 +8,12 @@
 
 namespace gnomon::tool {
 
-LightPool::LightPool(const std::vector<Light>& lights) {
+TexelShares::TexelShares(const std::vector<Light>& lights) {
   for (const Light& light : lights) requests_.push_back({light});
 }
 
-PlanOptions LightPool::options_of(std::size_t index, const gnomon::View& view, const SceneBounds& bounds,
-                                  const SweepEntry& entry) const {
+PlanOptions TexelShares::options_of(std::size_t index, const gnomon::View& view, const SceneBounds& bounds,
+                                    const SweepEntry& entry) const {
   constexpr int kSteps = 4;  // sizes from a quarter of the entry's to four times that
   LightOptions options;
   options.plan = entry.plan;

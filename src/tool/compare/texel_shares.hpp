@@ -9,10 +9,10 @@
 
 namespace gnomon::tool {
 
-class LightPool {
+class TexelShares {
  public:
-  LightPool() = default;
-  explicit LightPool(const std::vector<Light>& lights);
+  TexelShares() = default;
+  explicit TexelShares(const std::vector<Light>& lights);
   [[nodiscard]] const Light& light(std::size_t index) const { return requests_.at(index).light; }
   /// Options of one light's plan where plan_lights distributes as many texels as equal maps of the entry's
   /// size take in the pool; sizes are powers of two. Throws std::runtime_error where plan_lights refuses.
