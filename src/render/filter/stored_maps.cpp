@@ -151,7 +151,7 @@ void make_pages_programs(const FilterSettings& settings, FilterPrograms& program
   if (!refusal.empty())
     throw RenderError("filter " + std::string(settings.filter->info.name) + ": " + std::string(refusal));
   if (programs.mask_pages) return;
-  const ShaderChoice choice = choice_for(programs.variant, true);
+  const ShaderChoice choice = choice_for(programs.variant, false);  // pages have even texels
   const std::vector<ShaderName> shaders = pages_shaders(*settings.filter, programs.variant.reads);
   programs.mask_pages = make_screen_program(shaders[0], choice);
   if (programs.variant.reads == MapRead::depth) return;
@@ -180,7 +180,7 @@ FilterPrograms make_filter_programs(const FilterSettings& settings) {
   FilterPrograms programs;
   programs.variant = variant_of(settings);
   const bool any_reach = programs.variant.reach == FilterVariant::kAnyReach;
-  ShaderChoice choice = choice_for(programs.variant, true);
+  ShaderChoice choice = choice_for(programs.variant, false);
   const std::vector<ShaderName> shaders = filter_shaders(*settings.filter, programs.variant.reads);
   programs.mask = make_screen_program(shaders.front(), choice);
   const auto find = [&](const std::string& file) {

@@ -6,9 +6,12 @@
 #include <bit>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "filter/stored_maps.hpp"
 #include "gl/program.hpp"
+#include "gnomon/render/page_filter.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "test_scene.hpp"
 
@@ -59,6 +62,60 @@ TEST(Reads, the_mask_of_a_filter_fetches_the_surface_and_what_its_equations_need
     // Dithered transitions and turned samples take their noise from it.
     wanted.insert({"position_image", "normal_image", "albedo_image", "noise_tile"});
     EXPECT_EQ(active(programs.mask, GL_UNIFORM), wanted) << filter->info.name;
+  }
+}
+
+/// The texts of all shaders that are compiled while it lives.
+class CompiledTexts {
+ public:
+  CompiledTexts() {
+    texts_.clear();
+    real_ = std::exchange(glad_glShaderSource, &keep);
+  }
+  ~CompiledTexts() { glad_glShaderSource = real_; }
+  CompiledTexts(const CompiledTexts&) = delete;
+  CompiledTexts& operator=(const CompiledTexts&) = delete;
+
+  /// Of the shaders that look maps up, how many have the places of shapes that bend lines, and how many not.
+  struct Count {
+    int bent = 0, linear = 0;
+    bool operator==(const Count&) const = default;
+  };
+  [[nodiscard]] static Count count() {
+    Count count;
+    for (const std::string& text : texts_) {
+      if (text.find("ShadowLookup shadow_lookup(") == std::string::npos) continue;
+      ++(text.find("#define GNOMON_SHAPES 0") == std::string::npos ? count.bent : count.linear);
+    }
+    return count;
+  }
+
+ private:
+  static void GLAD_API_PTR keep(GLuint shader, GLsizei count, const GLchar* const* text,
+                                const GLint* length) {
+    texts_.emplace_back(*text);
+    real_(shader, count, text, length);
+  }
+  inline static std::vector<std::string> texts_;
+  inline static PFNGLSHADERSOURCEPROC real_ = nullptr;
+};
+
+// Software renderers run the places of all shapes for every pixel: three times the time of a look-up.
+TEST(Reads, the_mask_of_linear_maps_and_of_pages_has_the_places_of_no_other_shape) {
+  for (const Filter* filter : all_filters()) {
+    const FilterSettings settings = default_settings(*filter);
+    const CompiledTexts texts;
+    FilterPrograms programs = make_filter_programs(settings);
+    const CompiledTexts::Count linear = CompiledTexts::count();
+    EXPECT_EQ(linear.bent, 0) << filter->info.name;
+    EXPECT_GT(linear.linear, 0) << filter->info.name;
+    if (page_filter_refusal(settings).empty()) {
+      make_pages_programs(settings, programs);
+      EXPECT_EQ(CompiledTexts::count().bent, 0) << filter->info.name;
+      EXPECT_GT(CompiledTexts::count().linear, linear.linear) << filter->info.name;
+    }
+    make_shaped_programs(settings, programs);
+    EXPECT_GT(CompiledTexts::count().bent, 0) << filter->info.name;
   }
 }
 
