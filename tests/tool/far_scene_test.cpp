@@ -1,4 +1,4 @@
-// Do the commands measure a scene far from the origin as at it?
+// Do the commands measure a scene far from the origin as at it, and in any unit?
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,15 +14,16 @@
 namespace gnomon::test {
 namespace {
 
-/// Ground, and boards on it, one above the other, in a frame of 40 units that a node moves to `place`.
-std::string scene_at(const glm::dvec3& place) {
+/// Ground, and boards on it, one above the other, in a frame of 40 units that a node moves to `place` and
+/// scales.
+std::string scene_at(const glm::dvec3& place, double scale = 1.0) {
   TestGltf gltf;
   const auto board = [&](float low, float high, float y) {
     const int corners = gltf.positions({low, y, low, low, y, high, high, y, high, high, y, low});
     const int indices =
         gltf.accessor(gltf.view(std::vector<std::uint16_t>{0, 1, 2, 0, 2, 3}), kUnsignedShort, "SCALAR", 6);
     const json primitive = {{"attributes", {{"POSITION", corners}}}, {"indices", indices}};
-    gltf.show(primitive, {{"translation", {place.x, place.y, place.z}}});
+    gltf.show(primitive, {{"translation", {place.x, place.y, place.z}}, {"scale", {scale, scale, scale}}});
   };
   board(-20.0f, 20.0f, 0.0f);
   board(-4.0f, 3.0f, 6.0f);
@@ -85,6 +86,20 @@ TEST_F(FarScene, is_flown_through_as_at_the_origin_with_maps_and_with_pages) {
       }
     }
   }
+}
+
+// Products of two lengths left single precision: surfaces were black from 1e10 on, and noisy below 1e-8.
+TEST_F(FarScene, is_drawn_alike_in_every_unit) {
+  const auto picture = [&](double unit) {
+    const std::string file = folder_.write("scene.glb", scene_at(glm::dvec3(0.0), unit));
+    const Finished finished = run_gnomon({"fly", file, "--frames", "1", "--map-size", "256", "--size",
+                                          "96x54", "--context", "osmesa", "--out", out("flight")});
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return content_of(out("flight") + "/frame_0000_image.png");
+  };
+  const std::string wanted = picture(1.0);
+  // Powers of two, which round nothing.
+  for (const int power : {-30, 30, 40}) EXPECT_EQ(picture(std::ldexp(1.0, power)), wanted) << power;
 }
 
 TEST_F(FarScene, is_compared_as_at_the_origin) {

@@ -1,6 +1,8 @@
 // Where the objects stand: affine matrices in rows, relative to the camera or to the origin that maps are drawn from.
 #ifndef GNOMON_COMMON_OBJECTS_GLSL
 #define GNOMON_COMMON_OBJECTS_GLSL
+#include "pass/common/scale.glsl"
+
 struct Object {
   vec4 row[3];
 };
@@ -12,9 +14,13 @@ vec3 relative_from_object(uint index, vec3 position) {
 }
 
 // By the cofactor matrix: right for every affine transform, also where it has no inverse. The sign of the determinant
-// turns mirrored normals the right way.
+// turns mirrored normals the right way. The length may be any but zero.
 vec3 world_normal_from_object(uint index, vec3 normal) {
   vec3 a = objects[index].row[0].xyz, b = objects[index].row[1].xyz, c = objects[index].row[2].xyz;
+  float scale = scale_to_one(max(max(abs(a), abs(b)), abs(c)));
+  a *= scale;
+  b *= scale;
+  c *= scale;
   vec3 bc = cross(b, c);
   vec3 n = vec3(dot(bc, normal), dot(cross(c, a), normal), dot(cross(a, b), normal));
   return dot(a, bc) < 0.0 ? -n : n;

@@ -4,6 +4,7 @@
 #include "pass/common/frame.glsl"
 #include "pass/common/alpha.glsl"
 #include "pass/common/octahedral.glsl"
+#include "pass/common/scale.glsl"
 
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -17,7 +18,9 @@ layout(location = 2) out vec4 albedo_out;
 
 void main() {
   // Derivatives come before any discard.
-  vec3 geometric = cross(dFdx(position), dFdy(position));
+  vec3 right = dFdx(position), up = dFdy(position);
+  float scale = scale_to_one(max(abs(right), abs(up)));
+  vec3 geometric = cross(scale * right, scale * up);
   vec4 color = texture(color_image, texcoord) * base_color;
   if (is_cut_out(texcoord)) discard;
   // A triangle without area in the picture may have pixels, whose position is no number.

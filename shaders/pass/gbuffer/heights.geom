@@ -1,5 +1,7 @@
 #version 450 core
 // Tells each pixel the plane of its triangle.
+#include "pass/common/scale.glsl"
+
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 layout(location = 0) in vec3 position[];
@@ -12,7 +14,9 @@ layout(location = 3) flat out vec3 plane_normal;
 layout(location = 4) flat out vec3 plane_point;
 
 void main() {
-  vec3 across = cross(position[1] - position[0], position[2] - position[0]);
+  vec3 side = position[1] - position[0], other = position[2] - position[0];
+  float scale = scale_to_one(max(abs(side), abs(other)));
+  vec3 across = cross(scale * side, scale * other);
   float size = length(across);
   for (int i = 0; i < 3; ++i) {
     gl_Position = gl_in[i].gl_Position;
