@@ -55,7 +55,8 @@ void write_text(const fs::path& file, const std::string& text) {
 void make_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
-  if (error || !fs::is_directory(folder)) refuse(folder, "cannot be made a folder");
+  if (!error && !fs::is_directory(folder)) error = std::make_error_code(std::errc::not_a_directory);
+  if (error) refuse(folder, "cannot be made a folder: " + error.message());
 }
 
 fs::path inside(const fs::path& folder, const std::string& name) {

@@ -10,6 +10,7 @@
 #include "command.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "interrupt.hpp"
+#include "option_words.hpp"
 #include "output.hpp"
 #include "shell_texts.hpp"
 
@@ -26,9 +27,20 @@ int complain(const std::string& what, int code) {
   return code;
 }
 
+/// CLI::Range shows its ends with six digits behind the point, and lets not-a-number through.
 template <class Number>
-CLI::Validator range_check(const std::array<double, 2>& range) {
-  return CLI::Range(static_cast<Number>(range[0]), static_cast<Number>(range[1]));
+std::function<std::string(const std::string&)> number_check(const Option& option) {
+  return [name = option.name, range = option.range](const std::string& text) {
+    Number number{};
+    const bool read = CLI::detail::lexical_cast(text, number);
+    const bool fits =
+        !range || (number >= static_cast<Number>((*range)[0]) && number <= static_cast<Number>((*range)[1]));
+    if (read && fits && !std::isnan(static_cast<double>(number))) return std::string();
+    const std::string kind = std::is_integral_v<Number> ? "a whole number" : "a number";
+    const std::string ends =
+        range ? " from " + number_word((*range)[0]) + " to " + number_word((*range)[1]) : std::string();
+    throw std::runtime_error(name + " " + one_line(text, 80) + ": wants " + kind + ends);
+  };
 }
 
 CLI::Option* bind_parsed(CLI::App& app, const Option& option, const ParsedWord& parsed) {
@@ -57,18 +69,9 @@ CLI::Option* bind(CLI::App& app, const Option& option) {
       if constexpr (requires { value->empty(); }) has_default = !value->empty();
       if (has_default) bound->capture_default_str();
       if constexpr (std::is_same_v<Value, int> || std::is_same_v<Value, std::vector<int>>) {
-        if (option.range) bound->check(range_check<int>(*option.range));
-      } else if constexpr (std::is_same_v<Value, std::uint64_t>) {
-        if (option.range) bound->check(range_check<std::uint64_t>(*option.range));
-      } else if constexpr (std::is_same_v<Value, double>) {
-        if (option.range) bound->check(range_check<double>(*option.range));
-        // CLI::Range lets not-a-number through.
-        bound->check([name = option.name](const std::string& text) {
-          double number = 0.0;
-          if (CLI::detail::lexical_cast(text, number) && std::isnan(number))
-            throw std::runtime_error(name + " nan: wants a number");
-          return std::string();
-        });
+        bound->check(number_check<int>(option));
+      } else if constexpr (std::is_same_v<Value, std::uint64_t> || std::is_same_v<Value, double>) {
+        bound->check(number_check<Value>(option));
       }
       return bound;
     }

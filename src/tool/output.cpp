@@ -43,6 +43,20 @@ void check_folder(const std::string& option, const std::filesystem::path& folder
     throw std::runtime_error(option + " " + folder.string() + ": cannot be written: " + std::strerror(errno));
 }
 
+void check_file(const std::string& option, const std::filesystem::path& file,
+                const std::vector<std::filesystem::path>& kept) {
+  namespace fs = std::filesystem;
+  check_folder(option, file.has_parent_path() ? file.parent_path() : fs::path("."));
+  std::error_code error;
+  if (!file.has_filename() || fs::is_directory(file, error))
+    throw std::runtime_error(option + " " + file.string() + ": names no file");
+  const fs::path whole = fs::weakly_canonical(file, error);
+  for (const fs::path& other : kept) {
+    if (!other.empty() && (fs::equivalent(file, other, error) || fs::weakly_canonical(other, error) == whole))
+      throw std::runtime_error(option + " " + file.string() + ": would overwrite " + other.string());
+  }
+}
+
 void make_folder(const std::string& option, const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);

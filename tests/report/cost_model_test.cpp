@@ -145,6 +145,7 @@ TEST(CostModel, hostile_values_are_refused_with_one_line) {
   refused("name", "\"hard\\u001b[31m\\n\"", "name: wants one line of printable text");
   refused("machine", "\"" + std::string(500, 'x') + "\"", "machine: wants");
   refused("schema", "\"\\n\\u001b[31m\"", "schema");
+  refused("machine", "7", "file: needs string, is number");
 }
 
 TEST(CostModel, a_model_without_filters_is_refused) {

@@ -80,8 +80,55 @@ TEST(CommandLine, refuses_what_it_does_not_know) {
   expect_usage_error({"plan", file, "--repeat", "-3"});
   expect_usage_error({"plan", file, "--repeat", "many"});
   expect_usage_error({"plan", file, "--repeat", "99999999999999999999"});
+  expect_usage_error({"stress", "--random", "1", "--out", "/dev/null"});
   expect_usage_error({"stress", "--seed", "-1"});
   expect_usage_error({"stress", "--seed", "99999999999999999999"});
+}
+
+TEST(CommandLine, names_the_range_of_a_number_as_help_does) {
+  const auto error_of = [](const std::vector<std::string>& arguments) {
+    expect_usage_error(arguments);
+    return run_gnomon(arguments).err;
+  };
+  EXPECT_EQ(error_of({"view", "--near", "-1"}), "gnomon: --near -1: wants a number from 0 to 1e+30\n");
+  EXPECT_EQ(error_of({"view", "--near", "nan"}), "gnomon: --near nan: wants a number from 0 to 1e+30\n");
+  EXPECT_EQ(error_of({"view", "--map-size", "1.5"}),
+            "gnomon: --map-size 1.5: wants a whole number from 4 to 16384\n");
+  EXPECT_EQ(error_of({"stress", "--random", "0"}),
+            "gnomon: --random 0: wants a whole number from 1 to 1000000000000\n");
+}
+
+TEST(CommandLine, refuses_options_that_would_have_no_effect) {
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"view", "--out", "a.png", "--screenshot", "b.png"},
+        {"view", "--out", "a.png", "--tour", "tour"},
+        {"view", "--out", "a.png", "--exit-after", "3"},
+        {"stress", "--random", "1", "--cases"},
+        {"stress", "--random", "1", "--axis", "gap"},
+        {"fly", "--stable", "--fit", "tight"}}) {
+    const Finished finished = run_gnomon(words);
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_NE(finished.err.find(" excludes "), std::string::npos) << finished.err;
+  }
+}
+
+TEST(CommandLine, overwrites_no_file_that_it_reads) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("file", "as it was"), link = folder.path() / "link";
+  std::filesystem::create_symlink(file, link);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"view", file, "--out", file},
+        {"view", file, "--out", link},
+        {"view", link, "--screenshot", file},
+        {"view", "--path", file, "--out", folder.path() / "." / "file"},
+        {"view", "--proxies", file, "--out", file},
+        {"view", file, "--benchmark", file}}) {
+    const Finished finished = run_gnomon(words);
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_NE(finished.err.find(": would overwrite " + folder.path().string()), std::string::npos)
+        << finished.err;
+    EXPECT_EQ(content_of(file), "as it was");
+  }
 }
 
 TEST(CommandLine, suggests_what_was_meant) {

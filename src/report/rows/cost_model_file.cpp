@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "base/json_words.hpp"
 #include "file.hpp"
 #include "rows/cost_model_text.hpp"
 #include "text.hpp"
@@ -92,7 +93,7 @@ StoredCostModel cost_model_from_text(std::string_view text, const std::string& n
     check_nesting(text);
     return model_from(Json::parse(text));
   } catch (const Json::exception& error) {
-    throw ReportError(one_line(name + ": " + error.what()));
+    throw ReportError(one_line(name + ": " + json_words(error.what())));
   } catch (const ReportError& error) {
     throw ReportError(one_line(name + ": " + error.what()));
   }

@@ -15,6 +15,7 @@
 #include "compare/stage.hpp"
 #include "compare/sweep.hpp"
 #include "float_channel.hpp"
+#include "gnomon/casefile/casefile.hpp"
 #include "gnomon/extend/shape.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/report/errors.hpp"
@@ -184,7 +185,7 @@ void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::st
       options.receiver_plane = bias.receiver_plane;
       Planned plan(stage, entry, truth.camera);
       if (plan.status() == PlanStatus::invalid_input)
-        throw std::runtime_error(scene + ": the plan refuses " + std::string(plan.invalid_field()));
+        throw std::runtime_error(scene + ": " + invalid_input_text(plan.invalid_field()));
       (void)plan.draw(truth.camera, options);
       const FloatImage mask = stage.renderer().mask();
       progress.clear();

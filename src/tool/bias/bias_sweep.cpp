@@ -12,6 +12,7 @@
 #include "compare/planned.hpp"
 #include "compare/stage.hpp"
 #include "float_channel.hpp"
+#include "gnomon/casefile/casefile.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/report/errors.hpp"
 #include "interrupt.hpp"
@@ -195,7 +196,7 @@ void measure_view(const Sweep& product, const std::string& scene, const SweptLig
       entry.plan.bias = table.settings()[i];
       Planned plan(stage, entry, truth.camera);
       if (plan.status() == PlanStatus::invalid_input)
-        throw std::runtime_error(scene + ": the plan refuses " + std::string(plan.invalid_field()));
+        throw std::runtime_error(scene + ": " + invalid_input_text(plan.invalid_field()));
       render::FrameOptions options;
       options.prune = prune_rules_of(PruneSource::this_frame);
       options.aliasing = options.heat_map = options.cascade_tint = options.time_passes = false;

@@ -90,6 +90,7 @@ int fit(const CalibrateRequest& request, const std::vector<report::Row>& rows, b
 
 /// Prints what was fitted, or the planner's picks beside the measured front. Throws std::runtime_error.
 int run_calibrate(const CalibrateRequest& request, bool json) {
+  if (!request.check) check_file("--model", request.model);
   std::vector<std::string> folders = request.folders;
   if (folders.empty()) {
     if (request.check) throw std::runtime_error("--check: wants folders with results to be held against");

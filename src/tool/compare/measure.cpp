@@ -16,6 +16,7 @@
 
 #include "exact_results.hpp"
 #include "float_channel.hpp"
+#include "gnomon/casefile/casefile.hpp"
 #include "planned.hpp"
 
 namespace gnomon::tool {
@@ -246,8 +247,8 @@ FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntr
   stage.go_to(truth.frame, Stage::At::frame);
   Planned plan(stage, entry, truth.camera);
   if (plan.status() == PlanStatus::invalid_input)
-    throw std::runtime_error(row.scene + ", " + row.technique.name() + ": the plan refuses " +
-                             std::string(plan.invalid_field()));
+    throw std::runtime_error(row.scene + ", " + row.technique.name() + ": " +
+                             invalid_input_text(plan.invalid_field()));
   const render::FrameStats stats = plan.draw(truth.camera, frame_options(true));
   const FloatImage mask_image = renderer.mask();
   const std::vector<float> maps = channel(mask_image, 1);

@@ -89,6 +89,7 @@ Difference difference_of(const Image& a, const Image& b, int tolerance) {
 }
 
 int run_diff(const DiffRequest& request) {
+  if (!request.out.empty()) check_file("--out", request.out, {request.first, request.second});
   const Image a = load_picture(request.first), b = load_picture(request.second);
   if (a.width != b.width || a.height != b.height) {
     const std::string sizes = std::to_string(a.width) + "x" + std::to_string(a.height) + " and " +

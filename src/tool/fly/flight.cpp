@@ -16,6 +16,7 @@
 #include "edit_words.hpp"
 #include "float_channel.hpp"
 #include "frame_plan.hpp"
+#include "gnomon/casefile/casefile.hpp"
 #include "gnomon/render/filter.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/render/probe.hpp"
@@ -248,7 +249,7 @@ void check_plans(const Options& options, Flight& flight, const std::optional<All
     const ShadowPlan plan = make_plan(camera, light_of(options, flight.scene), flight.bounds(), options.plan);
     if (plan.status == PlanStatus::invalid_input) {
       throw std::runtime_error(
-          fmt::format("{}: frame {}: the plan refuses {}", options.scene, frame, plan.invalid_field));
+          fmt::format("{}: frame {}: {}", options.scene, frame, invalid_input_text(plan.invalid_field)));
     }
   }
 }

@@ -199,6 +199,8 @@ std::vector<Option> map_options(Request& request) {
   split.given = &request.split_given;
   Option lambda = plan_option("lambda", plan);
   lambda.given = &request.lambda_given;
+  Option fit = plan_option("fit", plan);
+  fit.excludes = {"--stable"};
   return {
       plan_option("cascades", plan),
       split,
@@ -208,7 +210,7 @@ std::vector<Option> map_options(Request& request) {
       compare_warps_option(request.options.compared_warps),
       plan_option("objective", plan),
       plan_option("map_size", plan),
-      plan_option("fit", plan),
+      fit,
       {.name = "--stable", .target = &request.stable, .help = "the same as --fit stable: texel-snapped maps"},
       {.name = "--transition",
        .target = enum_word(request.options.transition, transition_names()),

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "frame_pages.hpp"
+#include "gnomon/casefile/casefile.hpp"
 #include "page_aliasing.hpp"
 
 namespace gnomon::tool::fly {
@@ -31,7 +32,7 @@ DrawnPages draw_with_pages(const Options& options, const Flight& flight, const C
       std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, options.layer));
   FramePages pages({light, flight.bounds(), page_options_of(options.pages, options.plan)}, surfaces);
   if (pages.plan().status == PlanStatus::invalid_input)
-    throw std::runtime_error(options.scene + ": the plan refuses " + std::string(pages.plan().invalid_field));
+    throw std::runtime_error(options.scene + ": " + invalid_input_text(pages.plan().invalid_field));
   render::FrameOptions frame;
   frame.depth_layer = options.layer;
   frame.light = &light;

@@ -112,6 +112,7 @@ int run_frames(const StressRequest& request) {
 
 /// Random cases or case files, and then random frames.
 int run_net(const StressRequest& request) {
+  if (!request.out.empty()) check_folder("--out", request.out);
   int failed = 0;
   if (request.random > 0 || !request.replay.empty())
     failed = run_random_stress({request.random, request.seed, request.out, request.replay, request.context});
@@ -177,15 +178,18 @@ std::function<int()> declare_stress(Arguments& arguments) {
       {.name = "--random",
        .target = &request->random,
        .help = "check N random cases over all legal input, and nothing else",
-       .range = {{1, 1e12}}},
+       .range = {{1, 1e12}},
+       .excludes = {"--axis", "--cases", "--filters"}},
       {.name = "--frames",
        .target = &request->frames,
        .help = "draw N random frames, check masks against exact rays, and nothing else",
-       .range = {{1, 1e9}}},
+       .range = {{1, 1e9}},
+       .excludes = {"--axis", "--cases", "--filters"}},
       {.name = "--replay",
        .target = &request->replay,
        .help = "check these files of cases and frames as --random and --frames do, and nothing else",
-       .completion = Completion::files},
+       .completion = Completion::files,
+       .excludes = {"--axis", "--cases", "--filters"}},
       {.name = "--json", .target = &request->json, .help = "print a JSON object per row"},
       {.name = "--csv", .target = &request->csv, .help = "print CSV", .excludes = {"--json"}}};
   arguments.footer =

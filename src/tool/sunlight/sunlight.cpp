@@ -14,6 +14,7 @@
 #include "camera_words.hpp"
 #include "command.hpp"
 #include "edit_words.hpp"
+#include "gnomon/casefile/casefile.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/scene/image.hpp"
@@ -76,7 +77,7 @@ trace::SurfacePoints seen_surfaces(const trace::Tracer& tracer, const SceneView&
   options.resolution.max_size = kLeastMapSize;
   const ShadowPlan plan = make_plan(camera, sun, view.bounds(), options);
   if (plan.status == PlanStatus::invalid_input)
-    throw std::runtime_error(fmt::format("{}: the plan refuses {}", view.scene().name, plan.invalid_field));
+    throw std::runtime_error(view.scene().name + ": " + invalid_input_text(plan.invalid_field));
   (void)renderer.draw(plan, camera, renderer.prepare(render::filters::hard));
   const Light eye = PointLight{camera.position, std::numeric_limits<double>::infinity()};
   trace::SurfacePoints points =
@@ -245,18 +246,16 @@ void print(const Request& request, const SunMoment& begin, const Sunlight& day, 
                  .dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
-void check_file_folder(const std::string& option, const std::filesystem::path& file) {
-  check_folder(option, file.has_parent_path() ? file.parent_path() : std::filesystem::path("."));
-}
-
 int run(const Request& request) {
   const SunMoment begin = sun_day_word("--sun", request.sun);
   if (sun_hours(begin.unix_s, begin.place).never)
     throw std::runtime_error("--sun " + request.sun + ": the sun does not rise that day");
   check_scene_word("scene", request.scene);
   check_camera(request.camera);
-  check_file_folder("--out", request.out);
-  if (!request.csv.empty()) check_file_folder("--csv", request.csv);
+  check_file("--out", request.out, {request.scene, request.camera.path, request.edits.proxies});
+  if (!request.csv.empty())
+    check_file("--csv", request.csv,
+               {request.scene, request.camera.path, request.edits.proxies, request.out});
   watch_interrupts();
   try {
     const SceneView view(request.scene, {}, request.camera, limits_of_triangles(request.max_triangles),

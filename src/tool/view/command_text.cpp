@@ -48,6 +48,9 @@ void add_settings(const Settings& settings, std::string& text) {
   const Json now = plan_options_json(settings.plan), none = plan_options_json({});
   for (const auto& [key, value] : now.items()) {
     if (!is_spoken(key) || value == none[key]) continue;
+    // Alone it would select the practical split.
+    if (key == "lambda" && now["split"] == none["split"])
+      text += " --split " + now["split"].get<std::string>();
     std::string name = key;
     std::replace(name.begin(), name.end(), '_', '-');
     text += " --" + name + " " +

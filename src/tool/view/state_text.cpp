@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/bounded_file.hpp"
+#include "base/json_words.hpp"
 #include "base/nearest_name.hpp"
 #include "base/whole_file.hpp"
 #include "edit_words.hpp"
@@ -444,7 +445,7 @@ State read_state(std::string_view text) {
   try {
     json = Json::parse(text);
   } catch (const Json::exception& error) {
-    throw std::runtime_error(std::string("no JSON: ") + one_line(error.what(), 200));
+    throw std::runtime_error(std::string("no JSON: ") + one_line(json_words(error.what()), 200));
   }
   Reader reader(json, "");
   double version = 0;

@@ -108,13 +108,16 @@ void resolve_scene_words(const Request& request, Options& options) {
     fit_picture(request.camera, scene, request.size_given, options.width, options.height);
 }
 
+bool is_given(const Request& request, std::string_view setting) {
+  return std::any_of(request.settings.begin(), request.settings.end(),
+                     [setting](const auto& one) { return one.first == setting && *one.second; });
+}
+
 void resolve_playing(const Request& request, Playing& playing) {
-  const auto given = [&request](std::string_view name) {
-    return std::any_of(request.settings.begin(), request.settings.end(),
-                       [name](const auto& setting) { return setting.first == name && *setting.second; });
-  };
-  if (playing.animation.empty() && (given("--animate") || given("--animation-time"))) playing.animation = "0";
-  playing.on = given("--animate") && playing.speed != 0.0;
+  const bool animate = is_given(request, "--animate");
+  if (playing.animation.empty() && (animate || is_given(request, "--animation-time")))
+    playing.animation = "0";
+  playing.on = animate && playing.speed != 0.0;
 }
 
 /// The fields that only --options carries, taken from its text; the others are as the command line has them.
@@ -149,14 +152,23 @@ void resolve_plan(const Request& request, PlanOptions& plan) {
   }
 }
 
+/// What is written replaces nothing that is read.
+void check_files(const Request& request, const Options& options) {
+  const std::vector<std::filesystem::path> read{options.state.scene, request.state, request.camera.path,
+                                                options.state.edits.proxies};
+  for (const auto& [option, file] : {std::pair("--out", request.out),
+                                     {"--screenshot", request.screenshot},
+                                     {"--benchmark", request.benchmark}}) {
+    if (!file.empty()) check_file(option, file, read);
+  }
+}
+
 Options resolved(const Request& request) {
   Options options = request.options;
   options.out = request.out;
   options.screenshot = request.screenshot;
   options.tour = request.tour;
   options.benchmark = request.benchmark;
-  if (!request.out.empty() && !(request.benchmark.empty() && options.results.empty()))
-    throw std::runtime_error("--out opens no window, which --benchmark and --results need");
   if (!request.benchmark.empty() && !request.tour.empty())
     throw std::runtime_error("--benchmark and --tour: give one of them, each ends by itself");
   if (!request.state.empty()) {
@@ -171,9 +183,13 @@ Options resolved(const Request& request) {
     options.scene_given = true;
   }
   check_scene_word("scene", options.state.scene);
+  check_files(request, options);
   if (!request.state.empty()) return options;
   State& state = options.state;
   resolve_plan(request, state.a.plan);
+  // As in case files: who gives a blend means the split that blends.
+  if (is_given(request, "--lambda") && !is_given(request, "--split"))
+    (void)set_plan_choice("split", "practical", state.a.plan);
   check_page_size(state.a.pages);
   // A warped grid is only stable from frame to frame.
   if (state.a.plan.fit == Fit::warped_stable) state.a.history = true;
@@ -203,7 +219,8 @@ std::vector<Option> run_options(Request& request) {
       {.name = "--out",
        .target = &request.out,
        .help = "draw the picture into this PNG file and open no window",
-       .completion = Completion::files},
+       .completion = Completion::files,
+       .excludes = {"--exit-after", "--screenshot", "--tour", "--benchmark", "--results"}},
       size_option(options.width, options.height,
                   "size of the window, or of the picture of --out, in pixels, WIDTHxHEIGHT",
                   &request.size_given),
@@ -324,8 +341,6 @@ std::vector<Option> setting_options(Request& request) {
 }  // namespace
 
 int draw_to_file(const Options& options) {
-  check_folder("--out",
-               options.out.has_parent_path() ? options.out.parent_path() : std::filesystem::path("."));
   const auto context = render::create_context(options.context);
   Stage stage(load(options.state.scene, options.max_triangles, options.state.panes, options.state.edits));
   warn_of(stage.loaded().scene);

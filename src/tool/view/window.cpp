@@ -441,8 +441,6 @@ void close_session(const App& app) {
 
 int open_window(const Options& options) {
   if (!options.tour.empty()) check_folder("--tour", options.tour);
-  if (!options.benchmark.empty())
-    check_folder("--benchmark", options.benchmark.has_parent_path() ? options.benchmark.parent_path() : ".");
   const auto window = [&options] {
     try {
       return render::create_window(options.width, options.height, "gnomon view");

@@ -67,6 +67,17 @@ TEST(Diff, draws_where_pictures_differ) {
   EXPECT_EQ(against_same["largest_at"], nlohmann::json({0, 0}));
 }
 
+TEST(Diff, overwrites_no_picture_that_it_compares) {
+  const TemporaryFolder folder;
+  const std::string a = saved(folder, "a.png", grey(8, 8)), b = saved(folder, "b.png", grey(8, 8));
+  for (const std::string& out : {a, b, folder.path().string()}) {
+    const Finished finished = run_gnomon({"diff", a, b, "--out", out});
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_EQ(finished.out, "");
+    EXPECT_NE(finished.err.find("--out " + out), std::string::npos) << finished.err;
+  }
+}
+
 TEST(Diff, refuses_what_is_no_picture) {
   const TemporaryFolder folder;
   const std::string a = saved(folder, "a.png", grey(4, 4)), text = folder.write("b.png", "no picture");

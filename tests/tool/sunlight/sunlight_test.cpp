@@ -138,6 +138,17 @@ TEST(SunOption, lights_a_scene_as_its_elevation_and_azimuth_do) {
   EXPECT_NE(by_date, picture({}));
 }
 
+TEST_F(Sunlight, overwrites_neither_the_scene_nor_the_picture) {
+  const std::string scene = folder_.write("yard.glb", yard());
+  for (const auto& [out, csv] : {std::pair(scene, picture()), {picture(), scene}, {picture(), picture()}}) {
+    const Finished finished =
+        run_gnomon({"sunlight", scene, "--sun", "2026-03-20@0,0", "--out", out, "--csv", csv});
+    EXPECT_EQ(finished.exit_code, 2);
+    EXPECT_NE(finished.err.find(": would overwrite "), std::string::npos) << finished.err;
+  }
+  EXPECT_EQ(content_of(scene), yard());
+}
+
 TEST(SunOption, refuses_nights_and_what_it_contradicts) {
   const auto error_of = [](const std::vector<std::string>& light) {
     std::vector<std::string> arguments{"view", "builtin:fence", "--out", "/none/a.png"};

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 
+#include "process.hpp"
 #include "view_pictures.hpp"
 
 namespace gnomon::tool::view {
@@ -136,6 +137,22 @@ TEST(ViewState, that_is_broken_is_refused_with_the_key) {
   EXPECT_THROW((void)load_state("/no/such/file.json"), std::runtime_error);
 }
 
+TEST(ViewCommand, takes_a_blend_for_the_split_that_blends) {
+  const test::TemporaryFolder folder;
+  const auto picture_by = [&](const std::vector<std::string>& words) {
+    const std::string file = folder.path() / "cascades.png";
+    std::vector<std::string> command{"view",   "builtin:fence", "--view", "cascades", "--map-size", "64",
+                                     "--size", "64x36",         "--out",  file,       "--context",  "osmesa"};
+    command.insert(command.end(), words.begin(), words.end());
+    const test::Finished finished = test::spawn_gnomon(command);
+    EXPECT_EQ(finished.exit_code, 0) << finished.err;
+    return test::content_of(file);
+  };
+  const std::string uniform = picture_by({"--lambda", "0"});
+  EXPECT_EQ(uniform, picture_by({"--split", "practical", "--lambda", "0"}));
+  EXPECT_NE(uniform, picture_by({"--lambda", "1"}));
+}
+
 TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
   State state = hangar();
   EXPECT_EQ(command_text(state), "gnomon view builtin:hangar --map-size 256 --filter pcf");
@@ -155,6 +172,10 @@ TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
   EXPECT_NE(command.find("cadence_turn_deg"), std::string::npos) << command;
   EXPECT_NE(command.find(" --layer back"), std::string::npos) << command;
   EXPECT_NE(command.find("--eye=1,2,3 --target=0,0,-1 --view heat"), std::string::npos) << command;
+  state = hangar();
+  state.a.plan.split.lambda = 0.5;
+  EXPECT_EQ(command_text(state),
+            "gnomon view builtin:hangar --map-size 256 --split auto --lambda 0.5 --filter pcf");
   state = hangar();
   state.edits = {true, {{{-1, 0, 0}, 2.5}, {{0, 1, 0}, 3}}, "low.glb", UpAxis::z, true};
   state.height_world = 30.0;
