@@ -64,6 +64,16 @@ TEST(Tracer, embree_is_refused_by_name_where_it_was_not_built_in) {
   }
 }
 
+TEST(Tracer, a_triangle_far_from_all_others_takes_no_precision_from_them) {
+  Scene scene = one_square();
+  add_mesh(scene, {{1e9, 1e9, 1e9}, {1.1e9, 1e9, 1e9}, {1e9, 1.1e9, 1e9}}, glm::dmat4(1.0));
+  const Tracer tracer(scene);
+  EXPECT_EQ(tracer.engine(), Engine::own);
+  EXPECT_LT(tracer.error_world(), 1e-4);
+  EXPECT_TRUE(occluded(tracer, up_from(0.99, 0.5)));
+  EXPECT_FALSE(occluded(tracer, up_from(1.01, 0.5)));
+}
+
 TEST(Tracer, triangles_without_area_stop_nothing) {
   Scene scene = empty_scene();
   add_mesh(scene, {{0, 1, 0}, {1, 1, 0}, {2, 1, 0}, {0, 1, 0}, {0, 1, 0}, {0, 1, 0}});

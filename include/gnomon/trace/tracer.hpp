@@ -42,7 +42,7 @@ struct Hit {
 };
 
 enum class Engine : std::uint8_t {
-  automatic,  ///< Embree where it was built in, else our own
+  automatic,  ///< Embree where it was built in and errs by at most an eighth of the median triangle; else own
   embree,     ///< single precision, sixteen rays at a time, edges closed (RTC_SCENE_FLAG_ROBUST)
   own,        ///< double precision, edges closed; slower by a factor of about ten
 };
