@@ -8,6 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "gnomon/casefile/casefile.hpp"
+
 namespace gnomon::tool {
 
 FileLights file_lights(const Scene& scene) {
@@ -63,8 +65,7 @@ LightOptions pool_options(const PlanOptions& plan) {
 std::string refused_light(const LightPlan& plan, const std::vector<render::PooledLight>& lights) {
   if (plan.status != PlanStatus::invalid_input) return {};
   const auto light = static_cast<std::size_t>(plan.invalid_light);
-  return fmt::format("{}the plan refuses {}", light < lights.size() ? lights[light].name + ": " : "",
-                     plan.invalid_field);
+  return (light < lights.size() ? lights[light].name + ": " : "") + invalid_input_text(plan.invalid_field);
 }
 
 }  // namespace gnomon::tool

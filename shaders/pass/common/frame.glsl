@@ -15,7 +15,7 @@ layout(std140, binding = 0) uniform Frame {
   vec4 light_place;                // as light_at takes it; w is 2 where the light falls by the inverse square
   vec4 light_cone;                 // way of its axis; cosine of its half angle, -1: none
   vec4 bias;                       // BiasOptions: constant, slope, normal offset, largest slope
-  vec4 layer;                      // texels of a layer along x and y; range of the light, 0: none; far depth of the camera
+  vec4 layer;                      // texels of a layer along x and y; range of the light, 0: none; view depth of thick air
   vec4 selection;                  // as map_serving takes it; SplitTransition; SampleNoise; what moves the noise in this frame
   ShadowMap maps[kMaxMaps];
 } frame;

@@ -53,7 +53,7 @@ float light_on(LightRecord by, Surface s, ivec2 pixel) { return light_on(by, s, 
 
 // A little air in the distance.
 vec3 through_air(vec3 color, Surface s, vec3 ray, vec3 light) {
-  const float kHazeAtFar = 0.35;  // share of the horizon's colour at the camera's far plane
+  const float kHazeAtFar = 0.35;  // share of the horizon's colour where the air is thick
   float haze = kHazeAtFar * smoothstep(0.2, 1.0, s.depth / frame.layer.w);
   vec3 horizon = sky_color(normalize(vec3(ray.x, 0.02, ray.z)), light);
   return mix(color, horizon, haze);

@@ -1,6 +1,8 @@
 // One frame: depths, surfaces, mask, panes and pictures, whatever the shadows are read from.
 #include <algorithm>
 #include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 
 #include "frame/options_in_use.hpp"
 #include "frame/renderer_impl.hpp"
@@ -8,12 +10,26 @@
 #include "gnomon/render/contacts.hpp"
 
 namespace gnomon::render {
+namespace {
+
+/// View depth of thick air: the far plane's for an eye in the scene. Farther off for one outside, whose far
+/// plane may lie close behind a single object: that has no distance in it.
+double air_depth(const Camera& camera, const Box& scene_world) noexcept {
+  constexpr double kLeast = 0.01;
+  if (scene_world.empty()) return camera.far_depth;
+  const glm::dvec3 nearest = glm::clamp(camera.position, scene_world.min, scene_world.max);
+  const double within = std::max(1.0 - glm::distance(nearest, camera.position) / camera.far_depth, kLeast);
+  return camera.far_depth / (within * within);
+}
+
+}  // namespace
 
 void Renderer::Impl::draw(FrameJob& frame, FrameSource& source) {
   const PassTimer timed{frame.stats, frame.options.time_passes};
   const SourceSteps steps = source.steps(frame);
   const auto update = [&] { source.update(frame); };
   begin(frame, source);
+  frame.block.layer.w = static_cast<float>(air_depth(frame.camera, bounds_world));
   screen.upload(frame.block, frame.filtering);
   if (!steps.casters_last) timed(Pass::shadow_maps, update);
   timed(Pass::surfaces, [&] { screen.draw_surfaces(source.surfaces()); });

@@ -101,7 +101,7 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
   block.bias = glm::vec4(glm::dvec4(plan.bias.constant_texels, plan.bias.slope_texels,
                                     plan.bias.normal_offset_texels, plan.bias.max_slope));
   block.light_place = light_place(plan, camera);
-  block.layer = glm::vec4(glm::dvec4(layer_width, layer_height, 0.0, camera.far_depth));
+  block.layer = glm::vec4(layer_width, layer_height, 0.0f, 0.0f);  // the air's depth comes with the scene
   set_local_light(options.light, block);
   block.selection = glm::vec4(shader_selection(plan), static_cast<float>(options.transition),
                               static_cast<float>(options.noise), static_cast<float>(noise_offset(options)));

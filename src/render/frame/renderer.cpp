@@ -61,7 +61,8 @@ void Sources::lose(const FrameSource* but) noexcept {
 }
 
 Renderer::Impl::Impl(const Scene& scene)
-    : casters(scene),
+    : bounds_world(scene.bounds_world),
+      casters(scene),
       caster_pass(casters),
       screen(casters),
       sources{{casters, caster_pass, depths, screen}, {casters, caster_pass, depths, screen}, false, {}, {}},

@@ -51,6 +51,7 @@ struct Renderer::Impl {
   void draw_pictures(const FrameJob& frame, const PassTimer& timed) const;
   [[nodiscard]] const Framebuffer& framebuffer_of(Picture picture) const noexcept;
 
+  Box bounds_world;  ///< of the scene at rest
   CasterScene casters;
   CasterPass caster_pass;
   Screen screen;

@@ -341,7 +341,8 @@ void PoolSource::shade(FrameJob& frame) {
     sky.light_direction = glm::normalize(sun->direction);
     share = std::clamp(std::max({light.color.x, light.color.y, light.color.z}), 0.02f, 1.0f);
   }
-  const FrameBlock block = frame_block(sky, frame.camera, frame.options, 1, 1, BlurSides{}, DepthCurves{});
+  FrameBlock block = frame_block(sky, frame.camera, frame.options, 1, 1, BlurSides{}, DepthCurves{});
+  block.layer.w = frame.block.layer.w;
   const FrameTargets& targets = screen_.targets;
   screen_.upload(block, FilterBlock{});
   screen_.bind_mask();

@@ -3,9 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
+#include <vector>
 
 #include "gnomon/render/picture.hpp"
+#include "gnomon/render/renderer.hpp"
+#include "test_scene.hpp"
 
 namespace gnomon::render {
 namespace {
@@ -105,6 +109,23 @@ TEST(HeatLegend, shows_the_colours_of_the_scale_in_order) {
     found = cold >= 0 && cold < neutral && neutral < warm;
   }
   EXPECT_TRUE(found);
+}
+
+// The far plane lies close behind a single object: what has no distance has no air before it either.
+TEST(Air, leaves_a_single_object_its_colours_wherever_the_far_plane_is) {
+  Scene scene = empty_scene();
+  add_box(scene, kBoxMin, kBoxMax);
+  Renderer renderer(scene);
+  const PreparedFilter filter = renderer.prepare(filters::hard);
+  std::vector<Color> middle;
+  for (const double far_depth : {1.0, 100.0}) {
+    Camera camera = camera_on_box(64, 64);
+    const double away = glm::distance(camera.position, 0.5 * (glm::dvec3(kBoxMin) + glm::dvec3(kBoxMax)));
+    camera.far_depth = far_depth * (away + 3.0);
+    renderer.draw(plan_for(scene, camera, {0.3, -1.0, -0.5}, {}), camera, filter);
+    middle.push_back(pixel(renderer.image(), 32, 32));
+  }
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(middle[0][i], middle[1][i], 4) << i;
 }
 
 TEST(CascadeColors, differ_between_neighbouring_maps) {
