@@ -114,6 +114,7 @@ TEST(HeatLegend, shows_the_colours_of_the_scale_in_order) {
 // The far plane lies close behind a single object: what has no distance has no air before it either.
 TEST(Air, leaves_a_single_object_its_colours_wherever_the_far_plane_is) {
   Scene scene = empty_scene();
+  scene.materials.front().base_color = {0.2f, 0.02f, 0.02f, 1.0f};  // far from the horizon's
   add_box(scene, kBoxMin, kBoxMax);
   Renderer renderer(scene);
   const PreparedFilter filter = renderer.prepare(filters::hard);
