@@ -18,10 +18,10 @@
 #include "gnomon/scene/load.hpp"
 #include "gnomon/scene/translucent.hpp"
 #include "gnomon/study/expected_error.hpp"
-#include "identifier_word.hpp"
 #include "level_picture.hpp"
 #include "lines.hpp"
 #include "page_aliasing.hpp"
+#include "refusals.hpp"
 
 namespace gnomon::tool::view {
 namespace {
@@ -53,46 +53,6 @@ VisibleDepths visible_depths(render::Renderer& renderer, const Camera& camera) {
   for (std::size_t i = 3; i < positions.values.size(); i += 4)
     depths.add(static_cast<double>(positions.values[i]));
   return depths;
-}
-
-/// What a page does not hold, and why; empty: pages can have the settings.
-std::string refusal_of_pages(const Settings& settings) {
-  if (settings.identifiers)
-    return fmt::format("no pages with {}: they number what whole maps see", kIdentifiers);
-  if (settings.linear_depth) return "no pages with linear_depth: pages store depths divided by w";
-  return {};
-}
-
-/// Refuses maps that memory does not take, before a driver is asked for them. Empty: they fit.
-std::string memory_refusal(const PlanOptions& plan, const Settings& settings, bool panes) {
-  constexpr double kSurelyThere = 256.0 * 1024 * 1024;
-  const int maps = plan.cascades, size = plan.resolution.max_size;
-  constexpr double kDepthAndNumber = 8.0;
-  const double texel = (settings.identifiers ? kDepthAndNumber : render::bytes_per_texel(settings.filter)) +
-                       (panes ? render::kPaneTexelBytes : 0.0);
-  if (1.0 * size * size * maps * texel <= kSurelyThere) return {};
-  const render::FittingMaps fitting = render::largest_maps(size, maps, texel, 0.0);
-  if (fitting.size >= size) return {};
-  return fmt::format("map_size {}: {} such maps do not fit ({})", size, maps, fitting.why);
-}
-
-/// Why all lights of a file cannot shine in this state; empty: they can.
-std::string refusal_of_all_lights(const State& state, const Settings& settings) {
-  constexpr const char* kAll = "all lights of the file";
-  if (state.view != View::lit)
-    return fmt::format("view {} is of one light, not of {}",
-                       view_names()[static_cast<std::size_t>(state.view)].name, kAll);
-  if (state.comparison != Comparison::off && state.b_is_truth)
-    return fmt::format("exact rays are of one light, not of {}", kAll);
-  if (state.frozen) return fmt::format("no frozen camera with {}", kAll);
-  if (settings.pages.on()) return fmt::format("no pages with {}", kAll);
-  if (settings.identifiers) return fmt::format("no {} with {}", kIdentifiers, kAll);
-  if (settings.visible_depths) return fmt::format("no visible_depths with {}", kAll);
-  if (settings.linear_depth) return fmt::format("no linear_depth with {}", kAll);
-  if (settings.history) return fmt::format("no history with {}", kAll);
-  if (!settings.plan.warp.shape->affine)
-    return fmt::format("no {} with shape {}: its maps bend lines", kAll, settings.plan.warp.shape->name);
-  return {};
 }
 
 /// The name of what a side compiles.
