@@ -2,14 +2,10 @@
 #ifndef GNOMON_LIBRARY_COMPARE_GLSL
 #define GNOMON_LIBRARY_COMPARE_GLSL
 #include "library/lookup.glsl"
-#include "library/shaped_point.glsl"
 
 // A way of `offset` texels from the point may leave the point's piece of the map: what it is longer by than that many of the
 // point's own texels, in those. 0 in maps whose texels change smoothly.
 vec2 beyond_piece(ShadowLookup at, vec2 offset) {
-#if !GNOMON_SHAPES
-  return vec2(0.0);
-#endif
   return at.longer.xy * min(offset - at.ends.xy, 0.0) + at.longer.zw * max(offset - at.ends.zw, 0.0);
 }
 

@@ -1,6 +1,10 @@
 // How texels lie on the square that a map's matrix projects to: each shape of shapes.def by its place there.
 #ifndef GNOMON_LIBRARY_SHAPE_GLSL
 #define GNOMON_LIBRARY_SHAPE_GLSL
+// The includer may define GNOMON_SHAPES 0 where every map is linear: software renderers run all branches for every pixel.
+#ifndef GNOMON_SHAPES
+#define GNOMON_SHAPES 1
+#endif
 #include "library/shape/linear.glsl"
 #include "library/shape/logarithmic.glsl"
 #include "library/shape/rectilinear.glsl"

@@ -1,10 +1,6 @@
 // A place in a map and how it moves: ShapedPoint of include/gnomon/extend/shape.hpp in GLSL, and how far that holds.
 #ifndef GNOMON_LIBRARY_SHAPED_POINT_GLSL
 #define GNOMON_LIBRARY_SHAPED_POINT_GLSL
-// The includer may define GNOMON_SHAPES 0 where every map is linear: software renderers run all branches for every pixel.
-#ifndef GNOMON_SHAPES
-#define GNOMON_SHAPES 1
-#endif
 struct ShapedPoint {
   vec2 texel;           // from the corner at ndc (-1, -1)
   mat2 texel_from_ndc;  // derivative: column 0 along ndc x, column 1 along ndc y

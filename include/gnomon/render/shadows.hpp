@@ -18,8 +18,9 @@ struct DrawnLight {
   /// The plan its maps were drawn by last: this frame's where they are due. nullptr, or no maps: no shadow.
   const ShadowPlan* plan = nullptr;
   glm::vec3 color{1.0f};  ///< brightness by channel, >= 0; 1: as bright as the sun of other frames
-  /// Of a local light. False: `color` is at the light, and fades out towards its range. True: `color` is at
-  /// one world unit from it, and falls by the square of the distance, as KHR_lights_punctual recommends.
+  /// For a local light. True: it has `color` at a distance of one world unit, and less by the square of the
+  /// distance, as KHR_lights_punctual recommends. False: it has `color` at its place, and fades out towards
+  /// its range.
   bool inverse_square = false;
 };
 
