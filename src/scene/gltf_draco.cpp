@@ -170,7 +170,7 @@ class Decoder {
     Bytes indices(static_cast<std::size_t>(corners) * sizeof(std::uint32_t));
     for (std::uint32_t f = 0; f < mesh->num_faces(); ++f) {
       for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t corner = mesh->face(draco::FaceIndex(f))[static_cast<int>(k)].value();
+        const std::uint32_t corner = mesh->face(draco::FaceIndex(f))[k].value();
         std::memcpy(&indices[(f * 3u + k) * sizeof corner], &corner, sizeof corner);
       }
     }

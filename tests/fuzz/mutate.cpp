@@ -381,7 +381,7 @@ std::string mutated_jpeg(std::string_view input, Dice& dice) {
   for (std::size_t at = 2; at + 4 <= jpeg.size() && jpeg[at] == '\xff';) {
     segments.push_back(at);
     if (jpeg[at + 1] == '\xda') break;  // the scan: what follows has no length
-    at += 2 + (static_cast<unsigned char>(jpeg[at + 2]) << 8) + static_cast<unsigned char>(jpeg[at + 3]);
+    at += 2u + (std::size_t{static_cast<unsigned char>(jpeg[at + 2])} << 8) + static_cast<unsigned char>(jpeg[at + 3]);
   }
   if (segments.empty() || dice.one_in(3)) {
     change_bytes(jpeg, dice);

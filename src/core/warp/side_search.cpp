@@ -365,8 +365,8 @@ WarpChoice SideSearch::choice(const Sides& sides) const noexcept {
   const double steepness = std::sqrt(w.x * w.x + w.y * w.y);
   WarpChoice result;
   // Compilers divide before they choose, too (lanes/wide.hpp).
-  constexpr double kNothing = 1e-200;
-  result.axis = steepness > 0.0 ? glm::dvec2(w.x, w.y) / divisor(steepness, kNothing) : glm::dvec2(0.0, 1.0);
+  constexpr double kLeastLength = 1e-200;
+  result.axis = steepness > 0.0 ? glm::dvec2(w.x, w.y) / divisor(steepness, kLeastLength) : glm::dvec2(0.0, 1.0);
   const glm::dvec2 axis = result.axis;
   double u_min = std::numeric_limits<double>::infinity(), u_max = -u_min;
   for (std::size_t i = 0; i < body_.points; ++i) {
@@ -375,7 +375,7 @@ WarpChoice SideSearch::choice(const Sides& sides) const noexcept {
     u_max = max_of(u_max, u);
   }
   const double w_min = w.z + steepness * u_min;
-  result.kappa = w_min > 0.0 ? steepness / divisor(w_min, kNothing) : 0.0;
+  result.kappa = w_min > 0.0 ? steepness / divisor(w_min, kLeastLength) : 0.0;
   result.centre = origin_.x * axis.y - origin_.y * axis.x;
   // Over the warp's image: X is across the axis, from the origin, and Y along it from u_min, both over w.
   const double stretch = 1.0 + result.kappa * (u_max - u_min);
