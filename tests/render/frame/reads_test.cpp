@@ -101,7 +101,7 @@ class CompiledTexts {
 };
 
 // Software renderers run the places of all shapes for every pixel: three times the time of a look-up.
-TEST(Reads, the_mask_of_linear_maps_and_of_pages_has_the_places_of_no_other_shape) {
+TEST(Reads, masks_of_linear_maps_pages_and_pools_have_the_places_of_no_other_shape) {
   for (const Filter* filter : all_filters()) {
     const FilterSettings settings = default_settings(*filter);
     const CompiledTexts texts;
@@ -113,6 +113,12 @@ TEST(Reads, the_mask_of_linear_maps_and_of_pages_has_the_places_of_no_other_shap
       make_pages_programs(settings, programs);
       EXPECT_EQ(CompiledTexts::count().bent, 0) << filter->info.name;
       EXPECT_GT(CompiledTexts::count().linear, linear.linear) << filter->info.name;
+    }
+    if (!lights_shaders(*filter, programs.variant.reads).empty()) {
+      const int before = CompiledTexts::count().linear;
+      const Program mask = make_lights_program(settings), clusters = make_clusters_program(settings);
+      EXPECT_EQ(CompiledTexts::count().bent, 0) << filter->info.name;
+      EXPECT_EQ(CompiledTexts::count().linear, before + 2) << filter->info.name;
     }
     make_shaped_programs(settings, programs);
     EXPECT_GT(CompiledTexts::count().bent, 0) << filter->info.name;
