@@ -35,7 +35,7 @@ struct MapStats {
   std::uint64_t triangles = 0;  ///< drawn
   std::uint64_t texels = 0;     ///< rasterized into: width times height; of cached maps, those redrawn
   std::uint64_t copied = 0;     ///< texels copied from static casters' depths (PruneRule::static_casters)
-  bool held = false;            ///< cached: nothing drawn, nothing filtered
+  bool held = false;            ///< cached: nothing drawn, nothing filtered; surfaces: seen as a frame before
   bool scrolled = false;        ///< moved by whole texels and drawn where it was not in the map before
   int age = 0;                  ///< frames since all of it was drawn
 };

@@ -81,6 +81,7 @@ SceneBuffers::SceneBuffers(const Scene& scene)
 }
 
 void SceneBuffers::move(std::size_t instance, const Instance& to) {
+  ++changes_;
   boxes_[instance] = to.bounds_world;
   const glm::dmat4& m = to.world_from_object;
   translation_[instance] = glm::dvec3(m[3]);
@@ -108,6 +109,7 @@ void SceneBuffers::bend(std::uint32_t first, std::span<const glm::vec3> position
     glNamedBufferSubData(buffer.name(), static_cast<GLintptr>(first * sizeof(glm::vec3)),
                          static_cast<GLsizeiptr>(values.size_bytes()), values.data());
   };
+  ++changes_;
   clusters_.forget(first, positions.size());
   replace(positions_, positions);
   replace(normals_, normals);

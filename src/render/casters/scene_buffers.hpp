@@ -49,6 +49,8 @@ class SceneBuffers {
   /// Replaces vertices from `first` on. Their arrays are of one length.
   void bend(std::uint32_t first, std::span<const glm::vec3> positions, std::span<const glm::vec3> normals);
   [[nodiscard]] std::size_t vertex_count() const noexcept { return vertex_count_; }
+  /// Grows with every move() and bend().
+  [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
   /// Takes those for the next draws.
   void use(Placed placed) const noexcept;
   /// The maps' origin follows the camera in steps of this length, a power of two: 1/4 of the scene's diagonal
@@ -108,6 +110,7 @@ class SceneBuffers {
   std::vector<Material> materials_;
   std::vector<bool> mirrored_, casts_, receives_, shown_;  ///< by instance
   std::size_t vertex_count_ = 0;
+  std::uint64_t changes_ = 0;
   std::vector<std::uint32_t> primitive_of_;
   std::vector<glm::dvec3> translation_;
   std::vector<Box> boxes_;

@@ -32,7 +32,10 @@ void Renderer::Impl::draw(FrameJob& frame, FrameSource& source) {
   frame.block.layer.w = static_cast<float>(air_depth(frame.camera, bounds_world));
   screen.upload(frame.block, frame.filtering);
   if (!steps.casters_last) timed(Pass::shadow_maps, update);
-  timed(Pass::surfaces, [&] { screen.draw_surfaces(source.surfaces()); });
+  bool holds_surfaces = false;
+  timed(Pass::surfaces, [&] {
+    holds_surfaces = !screen.draw_surfaces(source.surfaces(), frame.camera.position, frame.block);
+  });
   if (steps.stores_texels) timed(Pass::prefilter, [&] { source.store(frame); });
   timed(Pass::mask, [&] { draw_mask(frame, source); });
   if (steps.casters_last) timed(Pass::shadow_maps, update);
@@ -43,6 +46,7 @@ void Renderer::Impl::draw(FrameJob& frame, FrameSource& source) {
   });
   draw_pictures(frame, timed);
   source.count(frame);
+  if (holds_surfaces) frame.stats.camera = {.held = true};
   frame.stats.ignored = frame.asked.without(frame.honoured);
 }
 

@@ -46,7 +46,14 @@ SurfacePass Screen::surfaces() const noexcept {
   return {targets.surfaces_fbo.name(), &surfaces_};
 }
 
-void Screen::draw_surfaces(const SurfacePass& by) const noexcept {
+bool Screen::draw_surfaces(const SurfacePass& by, const glm::dvec3& camera_world,
+                           const FrameBlock& frame) noexcept {
+  const Seen now{by.fbo,        by.program->name(),
+                 by.choice,     {targets.width, targets.height},
+                 camera_world,  frame.clip_from_camera_relative,
+                 frame.forward, casters_.buffers.changes()};
+  if (now == seen_) return false;
+  seen_ = now;
   glBindFramebuffer(GL_FRAMEBUFFER, by.fbo);
   glViewport(0, 0, targets.width, targets.height);
   constexpr std::array<float, 4> kNothing{};
@@ -71,6 +78,7 @@ void Screen::draw_surfaces(const SurfacePass& by) const noexcept {
   glDisable(GL_CULL_FACE);
   glDisable(GL_DEPTH_TEST);
   glDisable(GL_FRAMEBUFFER_SRGB);
+  return true;
 }
 
 void Screen::bind_surfaces() const noexcept {

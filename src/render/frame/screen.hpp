@@ -1,6 +1,12 @@
 // Everything at the size of the picture: its images, the blocks that shaders read, passes over all pixels.
 #pragma once
 
+#include <cstdint>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
 #include "casters/caster_scene.hpp"
 #include "frame/frame_block.hpp"
 #include "frame/target.hpp"
@@ -13,6 +19,7 @@ namespace gnomon::render {
 struct SurfacePass {
   GLuint fbo = 0;
   const Program* program = nullptr;  ///< writes at least what Screen::surfaces() writes
+  int choice = 0;                    ///< what its uniforms make it write besides
 };
 
 class Screen {
@@ -23,8 +30,8 @@ class Screen {
   void upload(const FrameBlock& frame, const FilterBlock& filtering) noexcept;
   /// Sends the filter's block alone.
   void upload(const FilterBlock& filtering) noexcept;
-  /// Draws what the draw lists have for the camera.
-  void draw_surfaces(const SurfacePass& by) const noexcept;
+  /// Draws what the draw lists have for the camera; false, with nothing drawn, where the images hold it.
+  bool draw_surfaces(const SurfacePass& by, const glm::dvec3& camera_world, const FrameBlock& frame) noexcept;
   /// The images of the surfaces pass, for shaders that read them.
   void bind_surfaces() const noexcept;
   /// Draws over all of `fbo` with `program`; the images of the surfaces pass are bound.
@@ -41,7 +48,20 @@ class Screen {
   FrameTargets targets;
 
  private:
+  /// All that the images of the surfaces pass depend on.
+  struct Seen {
+    GLuint fbo = 0, program = 0;
+    int choice = 0;
+    glm::ivec2 size{0};
+    glm::dvec3 camera_world{0.0};
+    glm::mat4 clip_from_camera_relative{0.0f};
+    glm::vec4 forward{0.0f};
+    std::uint64_t scene_changes = 0;
+    bool operator==(const Seen&) const = default;
+  };
+
   const CasterScene& casters_;
+  Seen seen_;
   Program surfaces_;
   Buffer frame_buffer_, filter_buffer_;
   VertexArray no_vertices_;

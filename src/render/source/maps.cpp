@@ -191,8 +191,8 @@ void MapSource::draw_identified(const FrameJob& frame) noexcept {
 }
 
 SurfacePass MapSource::surfaces() const noexcept {
-  return numbered_ ? SurfacePass{screen_.targets.identified_fbo.name(), &identifiers_->surfaces()}
-                   : screen_.surfaces();
+  if (!numbered_) return screen_.surfaces();
+  return {screen_.targets.identified_fbo.name(), &identifiers_->surfaces(), static_cast<int>(*numbered_)};
 }
 
 void MapSource::adapt(FrameJob& frame) {

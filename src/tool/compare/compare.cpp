@@ -296,6 +296,12 @@ class Run {
     const FrameTruth truth = frame_truth(stage, frame, sweep.baseline, sweep.pixel_samples);
     const bool pictures = frame == sweep.frames / 2;
     std::vector<const SweepEntry*> entries;  // that are drawn and timed
+    for (const Task& task : tasks)
+      if (sweep.entries[task.entry].given == nullptr) entries.push_back(&sweep.entries[task.entry]);
+    constexpr std::size_t kAhead =
+        32;  // techniques whose frame before is drawn at once: their masks are kept
+    std::vector<FrameBefore> ahead;
+    std::size_t measured = 0;
     std::vector<FrameMasks> masks;
     for (Task& task : tasks) {
       const SweepEntry& entry = sweep.entries[task.entry];
@@ -305,9 +311,14 @@ class Run {
         step(steps_of_errors(sweep) + steps_of_times(sweep, frame));
         continue;
       }
-      entries.push_back(&entry);
+      if (measured % kAhead == 0) {
+        const std::size_t next = std::min(kAhead, entries.size() - measured);
+        ahead = draw_before(stage, truth, std::span(entries).subspan(measured, next));
+      }
+      FrameBefore before = std::move(ahead[measured++ % kAhead]);
       FramePictures drawn;
-      masks.back() = measure_errors(stage, truth, entry, task.row, pictures ? &drawn : nullptr);
+      masks.back() =
+          measure_errors(stage, truth, entry, std::move(before), task.row, pictures ? &drawn : nullptr);
       if (!part.request->write_masks) masks.back() = {};
       if (pictures)
         task.row.pictures = write_pictures(sweep.out, sweep.first_scene + scene, task.entry, truth, drawn);

@@ -230,18 +230,28 @@ void time_visit(Planned& plan, const Camera& camera, Samples* samples) {
 
 }  // namespace
 
-FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
-                          FramePictures* drawn) {
+std::vector<FrameBefore> draw_before(Stage& stage, const FrameTruth& truth,
+                                     std::span<const SweepEntry* const> entries) {
+  stage.go_to(truth.frame, Stage::At::before);
+  std::vector<FrameBefore> all;
+  for (const SweepEntry* const entry : entries) {
+    FrameBefore& before = all.emplace_back();
+    before.plan = std::make_unique<Planned>(stage, *entry, truth.before);
+    if (truth.pixels.light.empty()) continue;
+    before.plan->draw(truth.before, frame_options(false));
+    before.mask = channel(stage.renderer().mask(), 0);
+  }
+  return all;
+}
+
+FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, FrameBefore before,
+                          report::Row& row, FramePictures* drawn) {
   FrameMasks masks;
+  masks.before = std::move(before.mask);
   render::Renderer& renderer = stage.renderer();
   stage.go_to(truth.frame, Stage::At::before);
-  Planned before(stage, entry, truth.before);
-  if (!truth.pixels.light.empty()) {
-    before.draw(truth.before, frame_options(false));
-    masks.before = channel(renderer.mask(), 0);
-  }
-  before.move_eye(truth.camera);
-  before.draw(truth.camera, frame_options(false));
+  before.plan->move_eye(truth.camera);
+  before.plan->draw(truth.camera, frame_options(false));
   masks.moved = channel(renderer.mask(), 0);
 
   stage.go_to(truth.frame, Stage::At::frame);
@@ -283,7 +293,7 @@ FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntr
   render::FrameOptions all_rules = frame_options(false);
   all_rules.prune = {};
   stage.go_to(truth.frame, Stage::At::before);
-  before.draw(truth.camera, all_rules);
+  before.plan->draw(truth.camera, all_rules);
   stage.go_to(truth.frame, Stage::At::frame);
   count_savings(plan.draw(truth.camera, all_rules), PruneSource::last_frame, row);
   return masks;

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <functional>
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "entry_file.hpp"
 #include "frame_truth.hpp"
 #include "gnomon/report/row.hpp"
+#include "planned.hpp"
 
 namespace gnomon::tool {
 
@@ -16,10 +19,21 @@ struct FramePictures {
   std::vector<float> mask;
 };
 
+/// A technique's plan for the frame before, and its mask through the camera of that frame; empty where the
+/// truth holds no whole pixels.
+struct FrameBefore {
+  std::unique_ptr<Planned> plan;
+  std::vector<float> mask;
+};
+
+/// Draws the frame before by each of the entries, one after the other: the camera's surfaces are drawn once.
+[[nodiscard]] std::vector<FrameBefore> draw_before(Stage& stage, const FrameTruth& truth,
+                                                   std::span<const SweepEntry* const> entries);
+
 /// Fills in the row's errors, aliasing, costs, status and what was left out; the pictures where `drawn` is
 /// not nullptr. Returns the masks.
-FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, report::Row& row,
-                          FramePictures* drawn);
+FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntry& entry, FrameBefore before,
+                          report::Row& row, FramePictures* drawn);
 
 /// The same errors of masks that others drew, as far as they can be known: nothing of kernels and maps. Fills
 /// in their times.
