@@ -10,6 +10,7 @@
 
 #include "command.hpp"
 #include "edit_words.hpp"
+#include "output.hpp"
 #include "page_frame.hpp"
 #include "plan_option.hpp"
 #include "scene_words.hpp"
