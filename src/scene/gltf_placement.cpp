@@ -5,6 +5,7 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -184,6 +185,14 @@ std::uint64_t place_count(const tinygltf::Model& model, const PlacementSource::P
       count = std::min<std::uint64_t>(count, model.accessors[static_cast<std::size_t>(accessor)].count);
   }
   return places.any() ? count : 1;
+}
+
+bool are_of_one_count(const tinygltf::Model& model, const PlacementSource::Places& places) {
+  const std::uint64_t count = place_count(model, places);
+  return std::ranges::all_of(
+      std::array{places.translation, places.rotation, places.scale}, [&](int accessor) {
+        return accessor < 0 || model.accessors[static_cast<std::size_t>(accessor)].count == count;
+      });
 }
 
 std::vector<glm::dmat4> places_of(const tinygltf::Model& model, const PlacementSource::Places& places,

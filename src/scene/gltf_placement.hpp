@@ -44,6 +44,8 @@ struct PlacementSource {
 
 /// How many places the node's mesh has: as many as the shortest of its accessors has entries.
 [[nodiscard]] std::uint64_t place_count(const tinygltf::Model& model, const PlacementSource::Places& places);
+/// False where its accessors have several counts.
+[[nodiscard]] bool are_of_one_count(const tinygltf::Model& model, const PlacementSource::Places& places);
 /// Node from instance, for each. Throws LeftOut where an accessor is broken.
 [[nodiscard]] std::vector<glm::dmat4> places_of(const tinygltf::Model& model,
                                                 const PlacementSource::Places& places,

@@ -205,6 +205,10 @@ class NodePlacer {
                    std::string("its instances are broken: ") + e.what() + "; the mesh is shown once");
       return false;
     }
+    if (!detail::are_of_one_count(document_.model, document_.placement.places[index]))
+      detail::warn(scene_.warnings, element("nodes", index),
+                   "attributes of its instances are of several counts: the first " +
+                       std::to_string(places.size()) + " are shown");
     if (motion_.moved_node(n) >= 0 || motion_.weights_of(n))
       detail::warn(scene_.warnings, element("nodes", index), "animations do not move its instances");
     const std::vector<std::uint32_t> primitives = primitives_at_rest(n);

@@ -99,7 +99,13 @@ TEST(GltfPlacement, broken_instances_are_warned_of_and_shown_once) {
   // The shortest list counts.
   gltf = instanced();
   gltf.document["accessors"][static_cast<std::size_t>(attributes_of(gltf)["SCALE"].get<int>())]["count"] = 2;
-  EXPECT_EQ(gltf.load().instances.size(), 2u);
+  scene = gltf.load();
+  EXPECT_EQ(scene.instances.size(), 2u);
+  ASSERT_EQ(scene.warnings.size(), 1u);
+  EXPECT_NE(
+      scene.warnings[0].find("nodes[0]: attributes of its instances are of several counts: the first 2"),
+      std::string::npos)
+      << scene.warnings[0];
 }
 
 TEST(GltfPlacement, of_what_is_not_finite_is_refused) {
