@@ -384,6 +384,7 @@ void focused_map(const PlanContext& c, const MapRequest& request, MapResult& res
   if (may_stay && take_cached(c, request, body, obliquity, result)) return;
   const PlaneMap plane = chosen_plane(c, request, body, result);
   fit_to_plane(c, request, body, plane, obliquity, result);
+  if (c.how.steady && result.drawn) keep_last_bits(c, request, result);
 }
 
 }  // namespace gnomon
