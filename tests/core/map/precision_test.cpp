@@ -141,6 +141,57 @@ double lost_depth(const ShadowMap& map, const glm::dvec3& light, const std::arra
          std::abs(ndc_depth_per_world_unit(map.clip_from_world, light, point));
 }
 
+/// Share of the ground's points in view that lose more depth than the default bias covers, where the ground
+/// is squares of this side, two triangles each.
+double share_lost(const Case& c, double ground_side, double tile_side) {
+  const glm::dvec3 light = glm::normalize(c.light);
+  const ShadowPlan plan = c.plan();
+  Random random(3);
+  int lost = 0, seen = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const glm::dvec3 ray =
+        point_at(c.camera, random.between(-1, 1), random.between(-1, 0), 1.0) - c.camera.position;
+    if (!(ray.y < -1e-3)) continue;
+    const double depth = -c.camera.position.y / ray.y;
+    const glm::dvec3 hit = c.camera.position + ray * depth;
+    const int serving = map_serving(plan, hit, depth);
+    if (serving < 0 || std::max(std::abs(hit.x), std::abs(hit.z)) > 0.5 * ground_side) continue;
+    const ShadowMap& map = plan.maps()[static_cast<std::size_t>(serving)];
+    const auto begin = [&](double at) {
+      return std::floor((at + 0.5 * ground_side) / tile_side) * tile_side - 0.5 * ground_side;
+    };
+    const glm::dvec3 low{begin(hit.x), 0.0, begin(hit.z)};
+    const double a = (hit.x - low.x) / tile_side, b = (hit.z - low.z) / tile_side;
+    const bool first = a + b <= 1.0;
+    const std::array<glm::dvec3, 3> corner = {
+        low + glm::dvec3(first ? 0.0 : tile_side, 0, first ? 0.0 : tile_side),
+        low + glm::dvec3(tile_side, 0, 0), low + glm::dvec3(0, 0, tile_side)};
+    const glm::dvec3 weight =
+        first ? glm::dvec3(1.0 - a - b, a, b) : glm::dvec3(a + b - 1.0, 1.0 - b, 1.0 - a);
+    const glm::dvec2 texel = texel_extent_world(map.clip_from_world, map.texels(), light, hit);
+    ++seen;
+    lost +=
+        lost_depth(map, light, corner, weight) > c.options.bias.constant_texels * std::max(texel.x, texel.y)
+            ? 1
+            : 0;
+  }
+  return seen > 0 ? static_cast<double>(lost) / seen : 1.0;
+}
+
+// docs/bias.md, "Large triangles".
+TEST(Precision, a_ground_in_tiles_keeps_its_depths_under_a_warp_that_none_bounds) {
+  constexpr double kSide = 2000.0;
+  Case c;
+  c.camera = perspective_camera({0, 1.7, 5}, {0.05, -0.08, -1}, {0, 1, 0}, 1.1, 1.5, 0.05, 5000, 1920, 1280);
+  c.light = {0.4, -0.7, -0.3};
+  c.casters = c.receivers = {{{-1000, -1, -1000}, {1000, 0, 1000}}, {{-4, 0, -40}, {4, 20, -30}}};
+  c.options.cascades = 1;
+  EXPECT_LT(share_lost(c, kSide, kSide), 0.01) << "searched, and bounded";
+  c.options.warp.warp = &warps::psm;
+  EXPECT_GT(share_lost(c, kSide, kSide), 0.2);
+  EXPECT_LT(share_lost(c, kSide, 100.0), 0.01);
+}
+
 TEST(Precision, a_ground_of_a_hundred_kilometres_is_not_lost_in_the_depths_near_the_eye) {
   // Two triangles are the ground. Its corners' w is tens of thousands of times that of what is near in a
   // warped map.

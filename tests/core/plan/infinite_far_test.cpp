@@ -158,5 +158,23 @@ TEST(InfiniteFar, a_stable_grid_holds_still_while_the_camera_walks) {
   EXPECT_LE(changes, 2);  // the first frame's, and one step
 }
 
+// docs/integration.md, "How far do shadows reach?"
+TEST(InfiniteFar, a_stable_map_pays_for_a_far_plane_behind_all_receivers_and_a_tight_one_does_not) {
+  Case c;
+  c.camera = perspective_camera({0, 1.7, 5}, {0, -0.08, -1}, {0, 1, 0}, 1.1, 1.5, 0.05, 5000.0, 1920, 1280);
+  c.light = {0.4, -0.7, -0.3};
+  c.receivers = c.casters = {{{-1000, -1, -1000}, {1000, 0, 1000}}, {{-4, 0, -40}, {4, 20, -30}}};
+  const auto p95 = [&](Fit fit, double far_depth) {
+    Case tried = c;
+    tried.options.fit = fit;
+    tried.camera.far_depth = far_depth;
+    return measure(tried.plan(), tried.camera, tried.bounds()).p95;
+  };
+  EXPECT_GT(p95(Fit::stable, 5000.0), 4.0 * p95(Fit::stable, kInfinity));
+  EXPECT_LT(p95(Fit::stable, 150.0), 0.5 * p95(Fit::stable, kInfinity));
+  // The depths that are sampled lie elsewhere.
+  EXPECT_NEAR(p95(Fit::tight, 5000.0) / p95(Fit::tight, kInfinity), 1.0, 0.02);
+}
+
 }  // namespace
 }  // namespace gnomon::test
