@@ -3,34 +3,32 @@
 //
 // Rules that hold everywhere:
 // - Results live in the caller's memory. Handles are only what owns memory: gnomon_caster_set,
-// gnomon_history,
-//   gnomon_light_history, gnomon_depth_tracker. Their _create() allocates; no other call does, unless its
-//   comment says so.
-// - A struct whose first field is `size` may grow: later versions append fields. Its _default() function sets
-// `size` to the
-//   caller's sizeof and all other fields to their defaults. A library takes the smaller struct of an older
-//   header, and refuses a larger one. Structs without `size` never change.
+//   gnomon_history, gnomon_light_history, gnomon_depth_tracker. Their _create() allocates; no other call
+//   does, unless its comment says so.
+// - A struct whose first field is `size` may grow: later versions append fields. Its _default() function
+//   sets `size` to the caller's sizeof and all other fields to their defaults. A library takes the
+//   smaller struct of an older header, and refuses a larger one. Structs without `size` never change.
 // - An array of structs that may grow comes with the size of one element, so that elements keep their
-// distance.
-// - Status is the return value. On GNOMON_INVALID_INPUT, `*invalid_field` names the struct and its field,
-// such as
-//   "camera.far_depth". It is NULL otherwise. The text is static. `invalid_field` itself may be NULL.
-// - A refused call leaves its results unchanged, apart from `status` and counts, which a comment then names.
-// - Pointers are only read or written during the call. No call keeps one, except where a comment says so.
-// - Matrices are 16 numbers, column by column: row r of column c is m[4 * c + r]. They act on column vectors:
-//   `clip_from_world` takes a point in world space to clip space. This is the order of OpenGL, three.js and
-//   glTF.
-// - Boxes are six doubles each: least x, y, z, then largest x, y, z. A box whose least exceeds its largest is
-// empty, and
-//   takes no part in anything. Points and directions are three doubles each.
-// - The world is right-handed unless gnomon_clip_space says otherwise. Lengths are in world units, angles in
-// radians.
+//   distance.
+// - Status is the return value. On GNOMON_INVALID_INPUT, `*invalid_field` names the struct and its
+//   field, such as "camera.far_depth". It is NULL otherwise. The text is static. `invalid_field` itself
+//   may be NULL.
+// - A refused call leaves its results unchanged, apart from `status` and counts, which a comment then
+//   names.
+// - Pointers are only read or written during the call. No call keeps one, except where a comment says
+//   so.
+// - Matrices are 16 numbers, column by column: row r of column c is m[4 * c + r]. They act on column
+//   vectors: `clip_from_world` takes a point in world space to clip space. This is the order of OpenGL,
+//   three.js and glTF.
+// - Boxes are six doubles each: least x, y, z, then largest x, y, z. A box whose least exceeds its
+//   largest is empty, and takes no part in anything. Points and directions are three doubles each.
+// - The world is right-handed unless gnomon_clip_space says otherwise. Lengths are in world units,
+//   angles in radians.
 // - Flags are int32_t: 0 is false, anything else true. Numbers beyond 1e30 and not-a-number are refused.
 // - Equal input gives equal bits, on every compiler and processor. No call has global state, sets errno,
-// throws, or calls
-//   back. Calls on different handles may run on different threads.
-// - A call takes up to 512 kB of stack, and gnomon_make_plan 256 kB. Give threads and WebAssembly modules as
-// much.
+//   throws, or calls back. Calls on different handles may run on different threads.
+// - A call takes up to 512 kB of stack, and gnomon_make_plan 256 kB. Give threads and WebAssembly
+//   modules as much.
 //
 // Calls marked GNOMON_API keep their meaning within a major version. Those marked GNOMON_EXPERIMENTAL may
 // change in a minor one. Until version 1.0, a minor version may change both; GNOMON_C_ABI_VERSION then grows.
