@@ -26,6 +26,13 @@ std::string content_of(const std::filesystem::path& file) {
   return content.str();
 }
 
+std::ptrdiff_t message_lines(const std::string& err) {
+  std::ptrdiff_t count = 0;
+  std::istringstream lines(err);
+  for (std::string line; std::getline(lines, line);) count += line.ends_with(" left") ? 0 : 1;
+  return count;
+}
+
 std::chrono::nanoseconds processor_time(pid_t process) {
   clockid_t clock{};
   timespec taken{};

@@ -4,6 +4,7 @@
 #include <sys/types.h>
 
 #include <chrono>
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -30,6 +31,9 @@ struct Finished {
 /// What both are made of: `run` is called in the new process with the program's name and arguments.
 [[nodiscard]] Finished run_process(const std::vector<std::string>& arguments, const std::string& input,
                                    const std::filesystem::path& out_file, int (*run)(std::vector<char*>& argv));
+
+/// How many lines a program's messages have, those of its progress aside: a slow machine prints some.
+[[nodiscard]] std::ptrdiff_t message_lines(const std::string& err);
 
 /// Processor time that a process took so far, in all its threads; 0 once it has ended.
 [[nodiscard]] std::chrono::nanoseconds processor_time(pid_t process);

@@ -64,7 +64,7 @@ bool kill_after(std::chrono::nanoseconds taken, pid_t child) {
 
 void expect_one_line(const std::string& err, const std::string& part) {
   EXPECT_NE(err.find(part), std::string::npos) << err;
-  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+  EXPECT_EQ(message_lines(err), 1) << err;
 }
 
 /// Rows that were left whole are the first of all, as they were.

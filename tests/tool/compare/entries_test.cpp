@@ -184,7 +184,7 @@ TEST(Entries, what_is_wrong_is_named_and_the_rest_is_measured) {
       "entry spot: "};
   for (const char* line : lines)
     EXPECT_NE(finished.err.find(line), std::string::npos) << line << "\n" << finished.err;
-  EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), std::ssize(lines)) << finished.err;
+  EXPECT_EQ(message_lines(finished.err), std::ssize(lines)) << finished.err;
   EXPECT_EQ(report::read_rows(folder.path() / "out").size(), 2u);
   EXPECT_TRUE(fs::exists(folder.path() / "out/report.html"));
 }
@@ -269,7 +269,7 @@ TEST(ExactResults, rows_are_the_same_without_with_new_and_with_kept_ones) {
   EXPECT_EQ(rows("third", kept.string(), &err), without);
   EXPECT_NE(err.find(victim.filename().string() + ": is damaged; it is made again"), std::string::npos)
       << err;
-  EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+  EXPECT_EQ(message_lines(err), 1) << err;
   EXPECT_EQ(content_of(victim), before);
 }
 

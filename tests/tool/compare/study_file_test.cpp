@@ -225,7 +225,7 @@ TEST(StudyFile, omits_an_optional_view_whose_file_is_absent_and_names_it) {
   ASSERT_EQ(finished.exit_code, 0) << finished.err;
   EXPECT_NE(finished.err.find("study.json: views[1]: nowhere/scene.gltf is not there"), std::string::npos)
       << finished.err;
-  EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
+  EXPECT_EQ(message_lines(finished.err), 1) << finished.err;
   const std::vector<report::Row> rows = report::read_rows(folder.path() / "out");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].view, "thin: fence");
