@@ -298,8 +298,7 @@ class Run {
     std::vector<const SweepEntry*> entries;  // that are drawn and timed
     for (const Task& task : tasks)
       if (sweep.entries[task.entry].given == nullptr) entries.push_back(&sweep.entries[task.entry]);
-    constexpr std::size_t kAhead =
-        32;  // techniques whose frame before is drawn at once: their masks are kept
+    constexpr std::size_t kAhead = 8;  // frames before that are drawn at once: their masks are kept
     std::vector<FrameBefore> ahead;
     std::size_t measured = 0;
     std::vector<FrameMasks> masks;
