@@ -14,10 +14,6 @@ using render::Color;
 
 constexpr Color kEmpty{24, 24, 28};
 
-glm::u8vec4 opaque(const Color& color) {
-  return {color.r, color.g, color.b, 255};
-}
-
 /// Columns and rows of the resident pages of a level.
 struct Extent {
   std::int32_t left = std::numeric_limits<std::int32_t>::max(), bottom = left, right = -1, top = -1;
@@ -102,7 +98,7 @@ MapPicture level_map_picture(const PagePlan& plan, std::size_t level, const std:
   }
   for (const PlacedPage& page : pages) {
     paint_page(page, plan.border_texels, nearest, farthest, picture.image);
-    add_square(page, opaque(color_of(page.drawn ? Texels::drawn : Texels::cached)), picture.lines);
+    add_square(page, {color_of(page.drawn ? Texels::drawn : Texels::cached), 255}, picture.lines);
   }
   return picture;
 }

@@ -22,10 +22,6 @@ bool cut(glm::dvec4& a, glm::dvec4& b, const glm::dvec4& plane) {
   return true;
 }
 
-glm::u8vec4 opaque(const render::Color& color) {
-  return {color.r, color.g, color.b, 255};
-}
-
 void add_polytope(const Polytope& body, const glm::dvec3& origin, const glm::u8vec4& color,
                   std::vector<WorldLine>& lines) {
   for (int i = 0; i < body.vertex_count; ++i) {
@@ -157,7 +153,7 @@ std::vector<WorldLine> plan_lines(const ShadowPlan& plan, const Camera& frozen, 
   std::vector<WorldLine> lines;
   std::vector<glm::u8vec4> colors;
   for (std::size_t i = 0; i < plan.maps().size(); ++i)
-    colors.push_back(opaque(render::cascade_color(static_cast<int>(i))));
+    colors.emplace_back(render::cascade_color(static_cast<int>(i)), 255);
   if (drawn.casters) add_casters(plan.maps(), colors, boxes, lines);
   for (std::size_t i = 0; i < plan.maps().size(); ++i) {
     const glm::u8vec4 color = colors[i];
@@ -181,7 +177,7 @@ std::vector<WorldLine> page_lines(const PagePlan& plan, const Camera& frozen, co
   std::vector<glm::u8vec4> colors;
   for (const Page& page : plan.pages) {
     maps.push_back(page_map(plan, page));
-    colors.push_back(opaque(level_color(page.level, plan.levels.size())));
+    colors.emplace_back(level_color(page.level, plan.levels.size()), 255);
   }
   if (drawn.casters) add_casters(maps, colors, boxes, lines);
   for (std::size_t i = 0; drawn.maps && i < maps.size(); ++i)

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include <string_view>
+
 #include "gnomon/extend/shape.hpp"
 #include "gnomon/render/probe.hpp"
 #include "identifier_word.hpp"
@@ -35,12 +37,15 @@ std::string refusal_of_all_lights(const State& state, const Settings& settings) 
                        view_names()[static_cast<std::size_t>(state.view)].name, kAll);
   if (state.comparison != Comparison::off && state.b_is_truth)
     return fmt::format("exact rays are of one light, not of {}", kAll);
-  if (state.frozen) return fmt::format("no frozen camera with {}", kAll);
-  if (settings.pages.on()) return fmt::format("no pages with {}", kAll);
-  if (settings.identifiers) return fmt::format("no {} with {}", kIdentifiers, kAll);
-  if (settings.visible_depths) return fmt::format("no visible_depths with {}", kAll);
-  if (settings.linear_depth) return fmt::format("no linear_depth with {}", kAll);
-  if (settings.history) return fmt::format("no history with {}", kAll);
+  const struct {
+    bool on;
+    std::string_view name;
+  } of_one_light[] = {
+      {state.frozen.has_value(), "frozen camera"},      {settings.pages.on(), "pages"},
+      {settings.identifiers.has_value(), kIdentifiers}, {settings.visible_depths, "visible_depths"},
+      {settings.linear_depth, "linear_depth"},          {settings.history, "history"}};
+  for (const auto& setting : of_one_light)
+    if (setting.on) return fmt::format("no {} with {}", setting.name, kAll);
   if (!settings.plan.warp.shape->affine)
     return fmt::format("no {} with shape {}: its maps bend lines", kAll, settings.plan.warp.shape->name);
   return {};

@@ -7,11 +7,11 @@
 
 namespace gnomon::tool::view {
 
-/// Of pages: what a page does not hold.
+/// Refuses settings that need more than a page holds.
 [[nodiscard]] std::string refusal_of_pages(const Settings& settings);
-/// Of maps that memory does not take, before a driver is asked for them.
+/// Refuses maps that exceed the free memory. A driver might end the program instead.
 [[nodiscard]] std::string memory_refusal(const PlanOptions& plan, const Settings& settings, bool panes);
-/// Of all lights of a file at once.
+/// Refuses settings that all lights of a file cannot share.
 [[nodiscard]] std::string refusal_of_all_lights(const State& state, const Settings& settings);
 
 }  // namespace gnomon::tool::view

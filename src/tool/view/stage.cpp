@@ -8,15 +8,12 @@
 #include <cmath>
 #include <thread>
 
-#include "edit_words.hpp"
 #include "float_channel.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "gnomon/render/context.hpp"
 #include "gnomon/render/error.hpp"
 #include "gnomon/render/picture.hpp"
 #include "gnomon/render/probe.hpp"
-#include "gnomon/scene/load.hpp"
-#include "gnomon/scene/translucent.hpp"
 #include "gnomon/study/expected_error.hpp"
 #include "level_picture.hpp"
 #include "lines.hpp"
@@ -69,27 +66,6 @@ const ShadowMap* Side::map_of(int index) const noexcept {
 
 int Side::picture_count() const noexcept {
   return pages ? static_cast<int>(pages->plan().levels.size()) : plan.map_count;
-}
-
-std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles, bool panes,
-                                   const SceneEdits& edits) {
-  auto loaded = std::make_shared<Loaded>();
-  loaded->name = scene;
-  loaded->scene = load_edited(scene, limits_of_triangles(max_triangles), edits);
-  loaded->edits = edits;
-  loaded->grounded = has_ground(loaded->scene);
-  loaded->shaded_by_sky = has_sky_that_casts(loaded->scene);
-  constexpr double kUsualAspect = 16.0 / 9.0;
-  loaded->path = default_path(loaded->scene, kUsualAspect);
-  loaded->parted = panes;
-  if (panes) {
-    TranslucentParts parts = split_translucent(loaded->scene);
-    loaded->scene = std::move(parts.opaque);
-    loaded->panes = std::move(parts.panes);
-  }
-  for (const Scene* part : {&loaded->scene, &loaded->panes})
-    for (const Instance& instance : part->instances) loaded->boxes.add(instance);
-  return loaded;
 }
 
 Stage::Stage(std::shared_ptr<const Loaded> loaded)

@@ -15,30 +15,14 @@
 #include "gnomon/motion.hpp"
 #include "gnomon/render/light_pool.hpp"
 #include "gnomon/render/renderer.hpp"
-#include "gnomon/scene/scene.hpp"
 #include "gnomon/trace/tracer.hpp"
+#include "loaded.hpp"
 #include "pictures.hpp"
 #include "posed_scene.hpp"
 #include "state.hpp"
 #include "truth.hpp"
 
 namespace gnomon::tool::view {
-
-/// A scene as it was loaded; needs no context, so that any thread may load it.
-struct Loaded {
-  std::string name;  ///< as State::scene has it
-  Scene scene;       ///< where `parted` without its panes
-  Scene panes;
-  bool parted = false;
-  SceneEdits edits;            ///< that `scene` has had
-  bool grounded = true;        ///< has_ground()
-  bool shaded_by_sky = false;  ///< has_sky_that_casts()
-  CameraPath path;
-  ShadowBoxes boxes;  ///< of the instances at rest, and of panes behind them
-};
-/// `edits`: made first. `panes`: parts them from the scene, which then has no animations. Throws SceneError.
-[[nodiscard]] std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_triangles,
-                                                 bool panes = false, const SceneEdits& edits = {});
 
 /// One side of a comparison, as it was drawn last.
 struct Side {
