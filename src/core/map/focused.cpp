@@ -380,11 +380,11 @@ void focused_map(const PlanContext& c, const MapRequest& request, MapResult& res
   LightBody body = in_light_space(c, request);
   if (c.how.stable) fill_frustum(request, body);
   const double obliquity = pixel_obliquity(c, request.body);
-  const bool may_stay = c.how.caches_maps && c.same_light && has_cached(request);
+  const bool has_same = c.same_light && has_cached(request), may_stay = c.how.caches_maps && has_same;
   if (may_stay && take_cached(c, request, body, obliquity, result)) return;
   const PlaneMap plane = chosen_plane(c, request, body, result);
   fit_to_plane(c, request, body, plane, obliquity, result);
-  if (c.how.steady && result.drawn) keep_last_bits(c, request, result);
+  if (c.how.steady && has_same && result.drawn) keep_last_bits(c, request, result);
 }
 
 }  // namespace gnomon

@@ -77,8 +77,8 @@ struct CachedMap {
 /// True where the last frame has a map of this size for the same slot and light.
 [[nodiscard]] bool has_cached(const MapRequest& request) noexcept;
 
-/// Gives a map the last frame's bits where both are the same but for rounding: nothing moved, and what is
-/// drawn may stay.
+/// Gives a map the last frame's bits where both differ by rounding alone. has_cached() must hold, under the
+/// same light.
 void keep_last_bits(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept;
 
 /// The best map, `best`, or one on the way there from the last frame's that keeps the change of texels per

@@ -12,9 +12,7 @@ void keep_last_bits(const PlanContext& c, const MapRequest& request, MapResult& 
   // Of half a side: 8e-6 texels of the largest map, and what a matrix loses 1e6 sides from the origin.
   constexpr double kSame = 0x1p-30;
   ShadowMap& map = result.map;
-  if (!c.same_light || request.last == nullptr || map.width != request.last->width ||
-      map.height != request.last->height || map.filter_margin_texels != request.last->filter_margin_texels)
-    return;
+  if (map.filter_margin_texels != request.last->filter_margin_texels) return;
   const glm::dmat4& last = request.last->gl_from_world;
   const glm::dmat4 now = counted_from(result.gl_from_world, c.camera.position),
                    change = counted_from(result.gl_from_world - last, c.camera.position);
