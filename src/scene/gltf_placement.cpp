@@ -5,7 +5,6 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
-#include <array>
 #include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -178,26 +177,20 @@ PlacementSource read_placement_source(const json& source, std::vector<std::strin
   return out;
 }
 
-std::uint64_t place_count(const tinygltf::Model& model, const PlacementSource::Places& places) {
-  std::uint64_t count = UINT64_MAX;
+PlaceCount place_count(const tinygltf::Model& model, const PlacementSource::Places& places) {
+  if (!places.any()) return {};
+  PlaceCount count{UINT64_MAX, 0};
   for (const int accessor : {places.translation, places.rotation, places.scale}) {
-    if (accessor >= 0)
-      count = std::min<std::uint64_t>(count, model.accessors[static_cast<std::size_t>(accessor)].count);
+    if (accessor < 0) continue;
+    const std::uint64_t entries = model.accessors[static_cast<std::size_t>(accessor)].count;
+    count = {std::min(count.least, entries), std::max(count.most, entries)};
   }
-  return places.any() ? count : 1;
-}
-
-bool are_of_one_count(const tinygltf::Model& model, const PlacementSource::Places& places) {
-  const std::uint64_t count = place_count(model, places);
-  return std::ranges::all_of(
-      std::array{places.translation, places.rotation, places.scale}, [&](int accessor) {
-        return accessor < 0 || model.accessors[static_cast<std::size_t>(accessor)].count == count;
-      });
+  return count;
 }
 
 std::vector<glm::dmat4> places_of(const tinygltf::Model& model, const PlacementSource::Places& places,
                                   std::uint64_t max_count) {
-  const std::uint64_t count = place_count(model, places);
+  const std::uint64_t count = place_count(model, places).least;
   const auto read = [&](int accessor, int components) {
     return accessor < 0 ? std::vector<float>() : read_floats(model, accessor, components, max_count);
   };

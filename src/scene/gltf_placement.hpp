@@ -42,10 +42,11 @@ struct PlacementSource {
 [[nodiscard]] PlacementSource read_placement_source(const nlohmann::json& source,
                                                     std::vector<std::string>& warnings);
 
-/// How many places the node's mesh has: as many as the shortest of its accessors has entries.
-[[nodiscard]] std::uint64_t place_count(const tinygltf::Model& model, const PlacementSource::Places& places);
-/// False where its accessors have several counts.
-[[nodiscard]] bool are_of_one_count(const tinygltf::Model& model, const PlacementSource::Places& places);
+/// Entries of the shortest and of the longest accessor. The mesh has as many places as the shortest.
+struct PlaceCount {
+  std::uint64_t least = 1, most = 1;
+};
+[[nodiscard]] PlaceCount place_count(const tinygltf::Model& model, const PlacementSource::Places& places);
 /// Node from instance, for each. Throws LeftOut where an accessor is broken.
 [[nodiscard]] std::vector<glm::dmat4> places_of(const tinygltf::Model& model,
                                                 const PlacementSource::Places& places,

@@ -107,7 +107,7 @@ void check_size(const detail::Document& document, const detail::NodeTree& tree, 
     if (node.mesh < 0 || document.placement.is_proxy(n)) continue;
     const auto m = static_cast<std::size_t>(node.mesh);
     const std::uint64_t places =
-        place_count(document.model, document.placement.places[static_cast<std::size_t>(n)]);
+        place_count(document.model, document.placement.places[static_cast<std::size_t>(n)]).least;
     const std::uint64_t each = of_mesh[m];
     // Products of what a file says may overflow.
     if (each > 0 && places > (UINT64_MAX - triangles) / each) triangles = UINT64_MAX;
@@ -194,7 +194,8 @@ class NodePlacer {
   /// One instance for each place of the node's mesh. False where they are broken, which is warned of.
   bool place_instances(int n) {
     const auto index = static_cast<std::size_t>(n);
-    if (detail::place_count(document_.model, document_.placement.places[index]) > limits_.nodes)
+    const detail::PlaceCount count = detail::place_count(document_.model, document_.placement.places[index]);
+    if (count.least > limits_.nodes)
       throw Refusal(element("nodes", index),
                     "takes the scene above " + std::to_string(limits_.nodes) + " instances");
     std::vector<glm::dmat4> places;
@@ -205,7 +206,7 @@ class NodePlacer {
                    std::string("its instances are broken: ") + e.what() + "; the mesh is shown once");
       return false;
     }
-    if (!detail::are_of_one_count(document_.model, document_.placement.places[index]))
+    if (count.least != count.most)
       detail::warn(scene_.warnings, element("nodes", index),
                    "attributes of its instances are of several counts: the first " +
                        std::to_string(places.size()) + " are shown");

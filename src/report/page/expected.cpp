@@ -22,8 +22,8 @@ bool counts(const Row& row) {
          wrong_of(row) * static_cast<double>(row.errors.pixels) >= kCountedPixels;
 }
 
-/// Rank correlation of right forecasts with the counts of pixels that come true, in the mean over draws. Each
-/// pixel errs by itself, so that a count varies by its root; errors that lie together vary more.
+/// Rank correlation that correct forecasts would have with counts of pixels, in the mean over draws. A count
+/// varies by its root where pixels err independently, and by more where errors lie together.
 double attainable_correlation(const std::vector<double>& counts) {
   constexpr int kDraws = 50, kUniforms = 12;  // whose sum has a variance of 1
   std::mt19937 random(1);
@@ -50,7 +50,7 @@ bool expects_some(const Row& row) {
 ExpectedCheck check_expected(const std::vector<Row>& rows) {
   ExpectedCheck check;
   struct View {
-    std::vector<double> expected, measured, pixels;
+    std::vector<double> expected, measured;  // pixels
   };
   std::map<std::string, View> views;
   std::vector<double> ratios;
@@ -62,21 +62,21 @@ ExpectedCheck check_expected(const std::vector<Row>& rows) {
     if (ratio < kAlike && ratio > 1.0 / kAlike) check.within += 1.0;
     Row view = row;
     view.technique = {};
-    auto& [expected, measured, pixels] = views[view.key()];
-    expected.push_back(*row.expected_wrong);
-    measured.push_back(wrong_of(row));
-    pixels.push_back(wrong_of(row) * static_cast<double>(row.errors.pixels));
+    auto& [expected, measured] = views[view.key()];
+    expected.push_back(*row.expected_wrong * static_cast<double>(row.errors.pixels));
+    measured.push_back(wrong_of(row) * static_cast<double>(row.errors.pixels));
   }
   if (check.rows == 0) return check;
   check.without = check.rows - ratios.size();
   check.within /= static_cast<double>(check.rows);
   check.ratio = geometric_mean(ratios, 1e-12);
   for (const auto& [key, view] : views) {
-    const double attainable = attainable_correlation(view.pixels);
-    if (view.expected.size() < kCountedRows || !std::isfinite(attainable)) continue;
+    if (view.measured.size() < kCountedRows) continue;
+    const double attainable = attainable_correlation(view.measured);
+    if (!std::isfinite(attainable)) continue;  // nothing to rank
     ++check.views;
     check.attainable += attainable;
-    // Expected to be alike: in no order, where there is one.
+    // Equal expected values rank nothing, though the measured ones differ.
     const double correlation = rank_correlation(view.expected, view.measured);
     if (std::isfinite(correlation)) check.correlation += correlation;
   }
@@ -132,8 +132,8 @@ std::string expected_part(const std::vector<Row>& rows) {
         " " + counted(check.without, "row") + " without an expected one: within no factor, and in no mean.";
   if (check.views > 0)
     out += " Rank correlation over the settings of a view, mean of " + counted(check.views, "view") + ": " +
-           short_number(check.correlation) + ". Forecasts that are right would have " +
-           short_number(check.attainable) + " at most, as counts of so few pixels vary.";
+           short_number(check.correlation) + ". A correct forecast would have at most " +
+           short_number(check.attainable) + ", because counts of few pixels vary.";
   return out +
          " Each pixel takes the exact shadow at the middle of its texel: no bias, and no detail below a "
          "pixel.</p>\n";
