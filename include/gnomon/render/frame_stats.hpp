@@ -35,7 +35,7 @@ struct MapStats {
   std::uint64_t triangles = 0;  ///< drawn
   std::uint64_t texels = 0;     ///< rasterized into: width times height; of cached maps, those redrawn
   std::uint64_t copied = 0;     ///< texels copied from static casters' depths (PruneRule::static_casters)
-  bool held = false;            ///< cached: nothing drawn, nothing filtered; surfaces: seen as a frame before
+  bool held = false;            ///< cached from the frame before: nothing drawn, nothing filtered
   bool scrolled = false;        ///< moved by whole texels and drawn where it was not in the map before
   int age = 0;                  ///< frames since all of it was drawn
 };
@@ -49,10 +49,10 @@ struct FrameStats {
   [[nodiscard]] double shadow_ms() const noexcept {
     return ms(Pass::shadow_maps) + ms(Pass::prefilter) + ms(Pass::mask);
   }
-  std::array<MapStats, kMaxMaps> map{};              ///< by index of the map in the plan
-  int map_count = 0;                                 ///< entries of `map` that are used
-  MapStats camera;                                   ///< the surfaces pass; its texels are pixels
-  std::uint64_t texels = 0;                          ///< over all maps
+  std::array<MapStats, kMaxMaps> map{};  ///< by index of the map in the plan
+  int map_count = 0;                     ///< entries of `map` that are used
+  MapStats camera;           ///< the surfaces pass; its texels are pixels; held while camera and scene rest
+  std::uint64_t texels = 0;  ///< over all maps
   std::array<PruneSaving, kPruneRuleCount> saved{};  ///< by PruneRule, the plan's own included
   int layered_maps = 0;                              ///< drawn in one pass (MapPasses)
   std::uint32_t layered_draws = 0;  ///< draw commands of that pass; MapStats::draws are those without it

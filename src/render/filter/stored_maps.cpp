@@ -141,7 +141,7 @@ Program make_pool_program(const FilterSettings& settings, std::size_t which) {
                       (info.draws_silhouettes ? "reads outlines beside" : "stores texels of") +
                       " whole maps, and a pool of lights has depths alone");
   }
-  // A pool takes linear maps alone: those that a light plan lays out.
+  // Light plans have linear maps only.
   return make_screen_program(lights_shaders(*settings.filter, info.reads).at(which),
                              choice_for(variant_of(settings), false));
 }

@@ -19,7 +19,7 @@ namespace gnomon::render {
 struct SurfacePass {
   GLuint fbo = 0;
   const Program* program = nullptr;  ///< writes at least what Screen::surfaces() writes
-  int choice = 0;                    ///< what its uniforms make it write besides
+  int choice = 0;                    ///< the variant that its uniforms select
 };
 
 class Screen {
@@ -30,7 +30,8 @@ class Screen {
   void upload(const FrameBlock& frame, const FilterBlock& filtering) noexcept;
   /// Sends the filter's block alone.
   void upload(const FilterBlock& filtering) noexcept;
-  /// Draws what the draw lists have for the camera; false, with nothing drawn, where the images hold it.
+  /// Draws what the draw lists have for the camera. Draws nothing, and returns false, where the images have
+  /// it already.
   bool draw_surfaces(const SurfacePass& by, const glm::dvec3& camera_world, const FrameBlock& frame) noexcept;
   /// The images of the surfaces pass, for shaders that read them.
   void bind_surfaces() const noexcept;
@@ -48,7 +49,7 @@ class Screen {
   FrameTargets targets;
 
  private:
-  /// All that the images of the surfaces pass depend on.
+  /// Everything that the images of the surfaces pass depend on.
   struct Seen {
     GLuint fbo = 0, program = 0;
     int choice = 0;
