@@ -90,11 +90,11 @@ struct CameraAxes {
 };
 [[nodiscard]] CameraAxes camera_axes(const Camera& camera) noexcept;
 
-/// The camera itself where its far plane is finite. Else one that sees as much of `boxes`. Its far plane lies
-/// at the depth of their farthest corner. That is rounded up to the next quarter octave of the near plane's
-/// depth (orthographic: of the image's height, counted from the near plane). Between such steps it does not
-/// change under a moving camera, and neither does the grid of Fit::stable. A far plane of one's own never
-/// moves it. At least one step, where no box reaches beyond the near plane.
+/// The camera itself where its far plane is finite. Else one that sees as much of `boxes`, whatever it looks
+/// at. Its far plane lies at the distance of the farthest corner of their bounds. That is rounded up to the
+/// next half octave of the near plane's depth (orthographic: of the image's height, counted from the near
+/// plane). A camera that turns does not change it, and one that walks does so at these steps alone. At least
+/// one step, where no box reaches beyond the near plane.
 [[nodiscard]] Camera with_finite_far(const Camera& camera, const Boxes& boxes) noexcept;
 
 /// OpenGL clip space (z in -1..1) from view space (x right, y up, z backward), and view from world. With an

@@ -101,9 +101,10 @@ struct SplitOptions {
   /// View depth, world units, from which error counts: nearer surfaces keep their shadow and do not draw
   /// texels towards the eye. Also the first split of SplitScheme::pseudo_near. 0: the near plane itself.
   double pseudo_near = 0.0;
-  /// Which depths are divided: those that hold receivers, or the camera's whole range. `automatic` takes the
-  /// receivers' for Fit::tight and the camera's for Fit::stable, whose grid must not depend on what is in
-  /// view.
+  /// Which depths are divided: those that hold receivers in view, or the camera's whole range. `automatic`
+  /// takes the receivers', but for Fit::stable and cascades that CadenceOptions keep: these must not depend
+  /// on what is in view. They end where no receiver can lie farther, however the camera turns:
+  /// with_finite_far.
   SplitRange range = SplitRange::automatic;
   /// given: the cascades - 1 view depths between neighbouring cascades, ascending, world units. They are
   /// clamped to the depths that are divided; a cascade without any depth left is omitted. Missing ones count
@@ -384,8 +385,9 @@ struct ResolutionOptions {
   /// so that the mean error over visible points, given or guessed, is least: maps that show more get more.
   /// Otherwise all maps have the same worst-case error. A side has up to kMaxMapSize. Sides may differ with
   /// Fit::tight and Fit::rotated, and stay equal elsewhere and with a history. The number of cascades, up to
-  /// `cascades`, is the one with the least error. At least least_budget_side() squared for each cascade (local
-  /// lights: for each of six faces). Partitions other than view_depth ignore it, and the plan reports that.
+  /// `cascades`, is the one with the least error. At least least_budget_side() squared for each cascade
+  /// (local lights: for each of six faces). Partitions other than view_depth ignore it, and the plan reports
+  /// that.
   std::int64_t texel_budget = 0;
   /// Bound of m that PruneRule::metric_resolution shrinks maps to, at least kLeastError. A larger bound gives
   /// smaller maps whose texels show.

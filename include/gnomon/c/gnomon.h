@@ -279,8 +279,8 @@ GNOMON_EXPERIMENTAL int32_t gnomon_depth_tracker_update(gnomon_depth_tracker* tr
 // ---------------------------------------------------------------- options
 
 enum {
-  GNOMON_RANGE_AUTOMATIC = 0,  ///< the receivers' depths for fit tight, the camera's for fit stable
-  GNOMON_RANGE_RECEIVERS = 1,  ///< depths that hold receivers
+  GNOMON_RANGE_AUTOMATIC = 0,  ///< GNOMON_RANGE_RECEIVERS; for fit stable depths up to the farthest receiver
+  GNOMON_RANGE_RECEIVERS = 1,  ///< depths that hold receivers in view
   GNOMON_RANGE_CAMERA = 2      ///< all depths of the camera
 };
 

@@ -48,12 +48,13 @@ CameraAxes camera_axes(const Camera& camera) noexcept {
   return {right, glm::cross(right, forward), forward};
 }
 
-Camera with_finite_far(const Camera& camera, const Boxes& boxes) noexcept {
-  Camera finite = camera;
-  if (!(camera.far_depth > std::numeric_limits<double>::max())) return finite;
-  const glm::dvec3 forward = camera_axes(camera).forward;
-  const double farthest = max_of(camera.near_depth, casters_inside({}, boxes, camera.position, forward).top);
-  constexpr double kStepsPerOctave = 4.0;
+double depth_in_reach(const Camera& camera, const Boxes& boxes, double aside) noexcept {
+  const CasterReach held = casters_inside({}, boxes, camera.position, {0.0, 0.0, 1.0});
+  const Box& box = held.bounds;
+  const glm::dvec3 corner(max_of(-box.min.x, box.max.x), max_of(-box.min.y, box.max.y),
+                          max_of(-box.min.z, box.max.z));
+  const double farthest = max_of(camera.near_depth, held.any ? glm::length(corner) + aside : 0.0);
+  constexpr double kStepsPerOctave = 2.0;
   const auto next_step = [](double ratio) {
     return elementary::exp2(std::ceil(elementary::log2(ratio) * kStepsPerOctave) / kStepsPerOctave);
   };
@@ -64,7 +65,12 @@ Camera with_finite_far(const Camera& camera, const Boxes& boxes) noexcept {
                            ? n + height * next_step(max_of((farthest - n) / height, kThinnest))
                            : n * next_step(max_of(farthest / n, 1.0 + kThinnest));
   // The logarithm's rounding must cut nothing off; and a ratio that overflows has no next step.
-  finite.far_depth = std::isfinite(reach) ? max_of(reach, farthest) : farthest;
+  return std::isfinite(reach) ? max_of(reach, farthest) : farthest;
+}
+
+Camera with_finite_far(const Camera& camera, const Boxes& boxes) noexcept {
+  Camera finite = camera;
+  if (camera.far_depth > std::numeric_limits<double>::max()) finite.far_depth = depth_in_reach(camera, boxes);
   return finite;
 }
 

@@ -35,6 +35,10 @@ struct CasterReach {
 [[nodiscard]] CasterReach casters_inside(std::span<const Plane> planes, const Boxes& casters,
                                          const glm::dvec3& origin, const glm::dvec3& up) noexcept;
 
+/// The view depth that no box lies beyond, however the camera turns: the distance of the farthest corner of
+/// their bounds, rounded up as with_finite_far says. `aside`: how far an eye may be off the camera's.
+[[nodiscard]] double depth_in_reach(const Camera& camera, const Boxes& boxes, double aside = 0.0) noexcept;
+
 /// Whether any box holds the point, both in world space.
 [[nodiscard]] bool in_some_box(const Boxes& boxes, const glm::dvec3& point_world) noexcept;
 

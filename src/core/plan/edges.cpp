@@ -120,10 +120,20 @@ double SplitTable::cost(double begin, double end) noexcept {
   return warped_ ? view.quick().value : view.unwarped();
 }
 
-/// Depths that hold receivers, or all of the camera's. `body`: of the receivers in view.
+/// The end of the depths that any receiver may have, whatever the cameras look at.
+double end_in_reach(const PlanContext& c) noexcept {
+  double aside = 0.0;
+  for (const SharedView& view : c.views) aside = max_of(aside, glm::length(view.eye));
+  return clamp_to(depth_in_reach(c.camera, c.bounds.receivers, aside), c.camera.near_depth,
+                  c.camera.far_depth);
+}
+
+/// Depths that hold receivers in view, or that may hold any, or all of the camera's. `body`: of the receivers
+/// in view.
 DepthRange received_depths(const PlanContext& c, const DepthRange& body) noexcept {
   const double n = c.camera.near_depth, f = c.camera.far_depth;
   if (c.options.split.range == SplitRange::camera) return {n, f};
+  if (c.how.divides_reach) return {n, end_in_reach(c)};
   const double low = min_of(body.begin, f), high = max_of(body.end, n);
   // A flat scene's depth must not fall outside its own range by rounding: of the depth itself, and of the
   // frustum's far corners that it was cut from.

@@ -53,14 +53,13 @@ void share(std::size_t views, Resolved& r) noexcept {
 
 /// Splits that no motion of the camera moves.
 void fix(SplitOptions& split) noexcept {
-  split.range = SplitRange::camera;
+  if (split.range == SplitRange::receivers) split.range = SplitRange::automatic;
   if (split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal)
     split.scheme = SplitScheme::practical;
 }
 
 /// Splits that what is in view does not move.
 void steady(SplitOptions& split) noexcept {
-  if (split.range == SplitRange::automatic) split.range = SplitRange::camera;
   if (split.scheme == SplitScheme::automatic) split.scheme = SplitScheme::practical;
   if (split.scheme == SplitScheme::optimal) split.scheme = SplitScheme::logarithmic;
 }
@@ -143,6 +142,7 @@ void resolve_parallel(const PlanCase& plan, Resolved& r) noexcept {
   r.follows_points = plan.has_points && !how.stable && !how.caches_maps && !how.caches_cascades && !divides;
   r.follows_depths = plan.has_depths && !plan.orthographic && o.split.range != SplitRange::camera;
   if (how.stable) steady(o.split);
+  how.divides_reach = (how.stable || how.caches_cascades) && o.split.range == SplitRange::automatic;
   r.planes =
       o.warp.has_planes() && tight(o.fit) && !r.parts && plan.views <= 1 && o.resolution.texel_budget == 0;
 

@@ -36,6 +36,7 @@ struct Conduct {
   bool rotated = false;                  // Fit::rotated: rectangles turn to the least area
   bool caches_maps = false;              // Fit::warped_stable: a map serves until the view leaves it
   bool caches_cascades = false;          // CadenceOptions: those behind the first serve for some frames
+  bool divides_reach = false;            // depths that no turn of the camera changes are divided
   bool has_history = false;              // a PlanHistory holds
   bool steady = false;                   // maps go in small steps from those of the last frame
 

@@ -87,9 +87,17 @@ TEST(Plan, depths_without_receivers_are_not_divided_unless_requested) {
   ASSERT_EQ(whole.map_count, 1);
   EXPECT_EQ(whole.map[0].depth_begin, 0.5);
   EXPECT_EQ(whole.map[0].depth_end, 200.0);
-  c.options.split.range = SplitRange::automatic;
   c.options.fit = Fit::stable;
   EXPECT_EQ(c.plan().map[0].depth_end, 200.0);
+  c.options.split.range = SplitRange::automatic;
+  const ShadowPlan stable = c.plan();
+  EXPECT_EQ(stable.map[0].depth_begin, 0.5);
+  // At most half an octave behind the farthest corner.
+  EXPECT_GE(stable.map[0].depth_end, 42.0);
+  EXPECT_LT(stable.map[0].depth_end, 1.42 * 43.0);
+  EXPECT_TRUE(tells(stable, OmissionKind::depth_without_receiver));
+  c.options.split.range = SplitRange::receivers;
+  EXPECT_GT(c.plan().map[0].depth_begin, 30.0);
 }
 
 TEST(Plan, light_exactly_along_or_against_the_view_gives_finite_maps) {

@@ -286,6 +286,22 @@ TEST(Views, every_receiver_that_any_camera_sees_is_in_a_map_within_its_error) {
   EXPECT_GT(lit, 0);
 }
 
+TEST(Views, stable_maps_serve_what_only_one_of_two_eyes_is_so_far_from) {
+  // The floor's end is less than 64 = 2^6 near planes from the middle between the eyes, and farther from one.
+  const Box floor{{-63.9, -1.1, -0.5}, {60.0, -1.0, 0.5}};
+  const auto eye = [](double x, double to) {
+    return perspective_camera({x, 0, 0}, {to, -0.01, 0}, {0, 1, 0}, 5 * kDegree, 1.0, 1.0, 1e4, 500, 500);
+  };
+  const std::array cameras{eye(5.0, -1.0), eye(-5.0, 1.0)};
+  PlanOptions options;
+  options.fit = Fit::stable;
+  const ShadowPlan plan =
+      plan_views(cameras, DirectionalLight{{0.2, -1, 0.1}}, {{&floor, 1}, {&floor, 1}}, options);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+  const glm::dvec3 end(-63.8, -1.0, 0.0);
+  EXPECT_GE(map_serving(plan, end, depth_of(cameras[0], end)), 0);
+}
+
 /// A camera without a twin and one beside it, over a single receiver: what random cases found.
 struct Beside {
   Camera camera;
