@@ -240,7 +240,7 @@ void expect_clean(const Filter& filter, Fit fit) {
                                std::cos(elevation) * std::sin(azimuth)};
         PlanOptions options;
         options.resolution.max_size =
-            fit == Fit::stable ? 1024 : 256;  // a stable map is wider than its slice
+            fit == Fit::stable ? 1536 : 256;  // a stable map is wider than its slice
         options.cascades = 2;
         options.warp.warp = warp;
         options.fit = fit;

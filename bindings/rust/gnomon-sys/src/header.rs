@@ -62,9 +62,9 @@ pub const GNOMON_DIRECTIONAL: i32 = 0;
 pub const GNOMON_SPOT: i32 = 1;
 /// all directions: `position`, `range`
 pub const GNOMON_POINT: i32 = 2;
-/// the receivers' depths for fit tight, the camera's for fit stable
+/// GNOMON_RANGE_RECEIVERS; for fit stable depths up to the farthest receiver
 pub const GNOMON_RANGE_AUTOMATIC: i32 = 0;
-/// depths that hold receivers
+/// depths that hold receivers in view
 pub const GNOMON_RANGE_RECEIVERS: i32 = 1;
 /// all depths of the camera
 pub const GNOMON_RANGE_CAMERA: i32 = 2;
