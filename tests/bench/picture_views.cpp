@@ -3,9 +3,9 @@
 // are three frames of each scene's flight, a low and a high sun, and three near planes: the flight's, half
 // and a thousandth of the nearest surface's depth. Nothing is drawn.
 //
-//   bench_picture_views [--light sun|spot|point] [--one-box] [--list] SCENE...
+//   bench_picture_views [--light sun|spot|point] [--one-box | --whole] [--list] SCENE...
 //
-// --one-box: receivers and casters are one box round the scene.
+// --one-box: receivers and casters are one box round the scene. --whole: boxes of instances, not of parts.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -25,6 +25,7 @@
 #include "gnomon/scene/coarse_view.hpp"
 #include "gnomon/scene/default_light.hpp"
 #include "gnomon/scene/load.hpp"
+#include "gnomon/scene/shadow_boxes.hpp"
 #include "gnomon/trace/tracer.hpp"
 
 namespace {
@@ -49,13 +50,16 @@ struct Surface {
 
 struct Options {
   gnomon::LightKind kind = gnomon::LightKind::sun;
-  bool one_box = false, list = false;
+  bool one_box = false, whole = false, list = false;
 };
 
 struct LoadedScene {
   gnomon::Scene scene;
-  std::vector<gnomon::Box> boxes;
-  [[nodiscard]] gnomon::SceneBounds bounds() const { return {boxes, boxes}; }
+  gnomon::ShadowBoxes boxes;
+  std::vector<gnomon::Box> coarser;  ///< where they are asked for
+  [[nodiscard]] gnomon::SceneBounds bounds() const {
+    return coarser.empty() ? boxes.bounds() : gnomon::SceneBounds{coarser, coarser};
+  }
 };
 
 struct SeenView {
@@ -306,6 +310,8 @@ int run(int argc, char** argv) {
     const std::string_view word = argv[i];
     if (word == "--one-box") {
       options.one_box = true;
+    } else if (word == "--whole") {
+      options.whole = true;
     } else if (word == "--list") {
       options.list = true;
     } else if (word == "--light" && i + 1 < argc) {
@@ -326,9 +332,9 @@ int run(int argc, char** argv) {
   for (const std::string& name : names) {
     auto& scene = *scenes.emplace_back(std::make_unique<LoadedScene>());
     scene.scene = gnomon::load_scene(name);
-    for (const gnomon::Instance& instance : scene.scene.instances)
-      scene.boxes.push_back(instance.bounds_world);
-    if (options.one_box) scene.boxes = {scene.scene.bounds_world};
+    scene.boxes = gnomon::ShadowBoxes(scene.scene);
+    if (options.whole) scene.coarser = scene.boxes.all();
+    if (options.one_box) scene.coarser = {scene.scene.bounds_world};
     add_views(name, scene, options, views);
   }
   if (views.empty()) {

@@ -68,7 +68,7 @@ void FrameStage::advance() {
     move_instances();
   }
   boxes_ = ShadowBoxes(parts_.opaque);
-  for (const Instance& pane : parts_.panes.instances) boxes_.add(pane);
+  boxes_.add(parts_.panes);
 }
 
 void FrameStage::pose_all() {

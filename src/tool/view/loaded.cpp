@@ -23,8 +23,8 @@ std::shared_ptr<const Loaded> load(const std::string& scene, std::uint64_t max_t
     loaded->scene = std::move(parts.opaque);
     loaded->panes = std::move(parts.panes);
   }
-  for (const Scene* part : {&loaded->scene, &loaded->panes})
-    for (const Instance& instance : part->instances) loaded->boxes.add(instance);
+  loaded->boxes = ShadowBoxes(loaded->scene);
+  loaded->boxes.add(loaded->panes);
   return loaded;
 }
 

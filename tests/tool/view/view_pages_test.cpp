@@ -75,10 +75,10 @@ TEST(ViewPages, of_the_scene_are_the_renderers) {
   render::Renderer renderer(stage().loaded().scene);
   const Light light = light_of(state.light, stage().loaded().scene.bounds_world);
   const Camera camera = eye_camera(state, stage().loaded().path, {}, kWidth, kHeight);
-  const std::vector<Box>& boxes = stage().loaded().boxes.all();
+  const SceneBounds bounds = stage().loaded().boxes.bounds();
   const auto seen =
       std::make_shared<const VisibleSurfaces>(draw_surfaces(renderer, camera, render::DepthLayer::front));
-  FramePages pages({light, {boxes, boxes}, page_options_of(state.a.pages, plan_options_of(state.a))}, seen);
+  FramePages pages({light, bounds, page_options_of(state.a.pages, plan_options_of(state.a))}, seen);
   render::FrameOptions frame;
   frame.light = &light;
   (void)pages.draw(renderer, camera, renderer.prepare(state.a.filter, render::Source::pages), frame);

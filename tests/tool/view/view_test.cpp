@@ -81,8 +81,7 @@ TEST(ViewPicture, of_the_scene_is_the_renderers) {
   const Light light = light_of(state.light, stage().loaded().scene.bounds_world);
   frame.light = &light;
   const Camera camera = eye_camera(state, stage().loaded().path, {}, kWidth, kHeight);
-  const std::vector<Box>& boxes = stage().loaded().boxes.all();
-  renderer.draw(make_plan(camera, light, {boxes, boxes}, plan_options_of(state.a)), camera,
+  renderer.draw(make_plan(camera, light, stage().loaded().boxes.bounds(), plan_options_of(state.a)), camera,
                 renderer.prepare(state.a.filter), frame);
   EXPECT_EQ(share_equal(image, renderer.image(), 0, kWidth), 1.0);
 }
