@@ -57,7 +57,7 @@ struct Frame {
   /// A picture of eight by eight pixels: one of the receivers' depths in each, or none, and any shadow.
   [[nodiscard]] double wrong_pixels(const SeededInput& in) const {
     if (in.receivers.empty()) return 0.0;
-    std::array<float, 64> mask, depths;
+    std::array<float, 64> mask, depths, distances;
     Camera camera = in.camera;
     camera.width = camera.height = 8;
     const CameraAxes axes = camera_axes(camera);
@@ -67,10 +67,11 @@ struct Frame {
       const double depth =
           box.empty() ? 0.0 : glm::dot(0.5 * box.min + 0.5 * box.max - camera.position, axes.forward);
       depths[i] = std::abs(depth) < 1e37 ? static_cast<float>(depth) : 0.0f;
+      distances[i] = static_cast<float>(i * i % 5) - 1.0f;
     }
     std::array<glm::dvec3, 8> edges;
     return expected_error(plan, {camera, mask, depths}).wrong_pixels +
-           expected_error(plan, {camera, mask, depths}, 1.5).wrong_pixels +
+           expected_error(plan, {camera, mask, depths, distances}, 1.5).wrong_pixels +
            static_cast<double>(shadow_edge_points({camera, mask, depths}, edges));
   }
 };

@@ -18,6 +18,20 @@ struct ShadowPicture {
   std::span<const float> mask;
   /// View depths of the surfaces. No surface: 0, below, infinite, not a number.
   std::span<const float> view_depths;
+  /// For each dark pixel: distance along the light from the surface to the occluder nearest the light, world
+  /// units. A map stores that occluder, and a bias longer than the distance lights the surface. Negative, not
+  /// a number: not known there. Empty: not known at all.
+  std::span<const float> occluder_distances = {};
+
+  /// True where each span has the image's size, and there is a pixel. Distances may be empty.
+  [[nodiscard]] bool is_whole() const noexcept {
+    const std::size_t count = mask.size();
+    const bool alike =
+        view_depths.size() == count && (occluder_distances.empty() || occluder_distances.size() == count);
+    if (camera.width < 1 || camera.height < 1) return false;
+    const auto width = static_cast<std::size_t>(camera.width);
+    return alike && count % width == 0 && count / width == static_cast<std::size_t>(camera.height);
+  }
 };
 
 /// The errors that a plan will make.
@@ -34,7 +48,8 @@ struct ExpectedError {
 inline constexpr double kMaxKernelTexels = 33.0;
 
 /// The pixels that comparisons in the plan's maps will misclassify, without drawing them. Each pixel takes
-/// the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias do not count.
+/// the shadow at the middle of its texel, where the texel meets the surface. Light that the plan's bias lets
+/// in counts where occluder_distances are known: as hard comparison of shaders/library/receiver.glsl has it.
 /// Shadows narrower than a pixel count less than they should: the picture should be as fine as the texels.
 /// Middles that another surface hides are not known; what is known stands for them. Nothing counts where a
 /// span has another size than the image. Pure, allocates nothing.

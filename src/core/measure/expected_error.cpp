@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "geometry/matrix.hpp"
+#include "measure/lookup_bias.hpp"
 #include "measure/metric_kernel.hpp"
 
 namespace gnomon {
@@ -24,14 +25,9 @@ class Pixels {
  public:
   explicit Pixels(const ShadowPicture& shadow) noexcept
       : shadow_(shadow), camera_(shadow.camera), axes_(camera_axes(shadow.camera)) {
-    if (camera_.width < 1 || camera_.height < 1) return;
-    const auto width = static_cast<std::size_t>(camera_.width),
-               height = static_cast<std::size_t>(camera_.height);
-    const std::size_t count = shadow.mask.size();
-    if (count % width == 0 && count / width == height && shadow.view_depths.size() == count) {
-      width_ = camera_.width;
-      height_ = camera_.height;
-    }
+    if (!shadow.is_whole()) return;
+    width_ = camera_.width;
+    height_ = camera_.height;
   }
   [[nodiscard]] int width() const noexcept { return width_; }
   [[nodiscard]] int height() const noexcept { return height_; }
@@ -41,6 +37,13 @@ class Pixels {
   [[nodiscard]] double lit(int x, int y) const noexcept {
     return static_cast<double>(shadow_.mask[at(x, y)]);
   }
+  /// The same in a map whose bias has this length along the light.
+  [[nodiscard]] double lit(int x, int y, double bias_world) const noexcept {
+    const double distance =
+        knows_occluders() ? static_cast<double>(shadow_.occluder_distances[at(x, y)]) : -1.0;
+    return distance >= 0.0 && distance < bias_world ? 1.0 : lit(x, y);
+  }
+  [[nodiscard]] bool knows_occluders() const noexcept { return !shadow_.occluder_distances.empty(); }
   [[nodiscard]] double depth(int x, int y) const noexcept {
     return static_cast<double>(shadow_.view_depths[at(x, y)]);
   }
@@ -112,25 +115,25 @@ SurfacePlane plane_at(const Pixels& pixels, int x, int y) noexcept {
   return plane;
 }
 
-/// The shadow at a pixel that shows the plane, else at `otherwise`.
+/// The shadow at a pixel that shows the plane, else at `otherwise`, under a bias.
 double lit_on(const Pixels& pixels, const SurfacePlane& plane, int x, int y, int right, int down,
-              double otherwise) noexcept {
+              double bias_world, double otherwise) noexcept {
   const bool shown = pixels.counts(x + right, y + down) &&
                      plane.holds(right, down, pixels.flat(pixels.depth(x + right, y + down)));
-  return shown ? pixels.lit(x + right, y + down) : otherwise;
+  return shown ? pixels.lit(x + right, y + down, bias_world) : otherwise;
 }
 
-/// The shadow in a place between four pixels, as far as they show the plane of pixel x, y. Negative: none
-/// does.
-double lit_between(const Pixels& pixels, const SurfacePlane& plane, int x, int y,
-                   const Pixels::Place& place) noexcept {
+/// The shadow in a place between four pixels under a bias, as far as they show the plane of pixel x, y.
+/// Negative: none does.
+double lit_between(const Pixels& pixels, const SurfacePlane& plane, int x, int y, const Pixels::Place& place,
+                   double bias_world) noexcept {
   if (!(place.x > -1.0 && place.y > -1.0 && place.x < pixels.width() && place.y < pixels.height()))
     return -1.0;
   const double left = std::floor(place.x), top = std::floor(place.y);
   double sum = 0.0, weights = 0.0;
   for (int i = 0; i < 4; ++i) {
     const int column = static_cast<int>(left) + i % 2, row = static_cast<int>(top) + i / 2;
-    const double lit = lit_on(pixels, plane, x, y, column - x, row - y, -1.0);
+    const double lit = lit_on(pixels, plane, x, y, column - x, row - y, bias_world, -1.0);
     const double weight = (1.0 - std::abs(place.x - column)) * (1.0 - std::abs(place.y - row));
     if (lit < 0.0) continue;
     sum += weight * lit;
@@ -145,7 +148,7 @@ double lit_between(const Pixels& pixels, const SurfacePlane& plane, int x, int y
 double lit_alike(const Pixels& pixels, const SurfacePlane& plane, int x, int y,
                  const Pixels::Place& place) noexcept {
   const double own = pixels.lit(x, y);
-  const auto lit = [&](int right, int down) { return lit_on(pixels, plane, x, y, right, down, own); };
+  const auto lit = [&](int right, int down) { return lit_on(pixels, plane, x, y, right, down, 0.0, own); };
   const auto aside = [&](double at, int right, int down) {
     std::array<double, 5> line{};
     for (int i = 0; i < 5; ++i) line[static_cast<std::size_t>(i)] = lit((i - 2) * right, (i - 2) * down);
@@ -170,13 +173,14 @@ class TexelsOnPlane {
  public:
   TexelsOnPlane(const Pixels& pixels, const ShadowMap& map, const SurfacePlane& plane,
                 const glm::dvec3& point, int x, int y) noexcept
-      : pixels_(pixels), point_(point) {
+      : pixels_(pixels), light_(map.light_world), point_(point) {
     const Camera& camera = pixels.camera();
     const TexelGrid grid = map.texels();
     // Asked first: the Jacobian divides by it.
     if (!(w_at(map.clip_from_world, point) > 0.0)) return;
     const TexelJacobian texel = texel_jacobian(map.clip_from_world, grid, point);
     if (!(texel.w > 0.0)) return;
+    texel_ = texel;
     const ViewPoint view = view_point(camera, pixels.axes(), point);
     // Two ways along the plane, each by a pixel to where it comes nearer: away from its horizon.
     const auto beside = [&](int dx, int dy, double growth) {
@@ -188,6 +192,7 @@ class TexelsOnPlane {
     down_ = beside(0, 1, plane.down);
     const glm::dvec3 normal = safe_normalize(glm::cross(right_, down_), -view.ray);
     if (!(std::abs(glm::dot(normal, view.ray)) > kGrazing)) return;
+    normal_ = glm::dot(normal, view.ray) > 0.0 ? -normal : normal;
     x_ = {glm::dot(texel.x, right_), glm::dot(texel.x, down_)};
     y_ = {glm::dot(texel.y, right_), glm::dot(texel.y, down_)};
     place_ = grid.place({texel.ndc_x, texel.ndc_y}).texel;
@@ -195,6 +200,12 @@ class TexelsOnPlane {
   }
   /// Of the point, in texels of its map.
   [[nodiscard]] const glm::dvec2& place() const noexcept { return place_; }
+  /// Length of the bias along the light, world units; 0 where the plane is not known.
+  [[nodiscard]] double bias_world(const BiasOptions& options) const noexcept {
+    if (!known_) return 0.0;
+    const glm::dvec3 to_light = glm::dvec3(light_) - light_.w * point_;
+    return lookup_bias_world(options, texel_, normal_, -safe_normalize(to_light, normal_));
+  }
   /// Where the picture shows what lies there in the map. False where that is nowhere.
   [[nodiscard]] bool shown(const glm::dvec2& texel, Pixels::Place& place) const noexcept {
     if (!known_) return false;
@@ -210,7 +221,9 @@ class TexelsOnPlane {
 
  private:
   const Pixels& pixels_;
-  glm::dvec3 point_, right_{0.0}, down_{0.0};
+  glm::dvec4 light_;  ///< ShadowMap::light_world
+  glm::dvec3 point_, right_{0.0}, down_{0.0}, normal_{0.0};
+  TexelJacobian texel_{};
   glm::dvec2 x_{0.0}, y_{0.0}, place_{0.0};  ///< texels for each step to the right and down
   bool known_ = false;
 };
@@ -223,7 +236,7 @@ double overlap(double first, double count, double low, double high) noexcept {
 /// The shadow over a box of texels round the point. Negative: the picture shows too few of their middles. Of
 /// wide boxes the middles of blocks stand for their texels.
 double lit_over(const Pixels& pixels, const SurfacePlane& plane, const TexelsOnPlane& texels, int x, int y,
-                double half_side) noexcept {
+                double half_side, double bias_world) noexcept {
   // Less would be one side of an edge that lies at the border of what is shown.
   constexpr double kLeastShown = 0.9, kMostAlongSide = 8.0;
   const double block = std::ceil(2.0 * half_side / kMostAlongSide);
@@ -234,7 +247,7 @@ double lit_over(const Pixels& pixels, const SurfacePlane& plane, const TexelsOnP
     for (double column = std::floor(low.x); column < high.x; column += block) {
       Pixels::Place place{};
       if (!texels.shown(glm::dvec2(column, row) + 0.5 * block, place)) continue;
-      const double lit = lit_between(pixels, plane, x, y, place);
+      const double lit = lit_between(pixels, plane, x, y, place, bias_world);
       if (lit < 0.0) continue;
       const double weight = overlap(column, block, low.x, high.x) * overlap(row, block, low.y, high.y);
       sum += weight * lit;
@@ -266,13 +279,18 @@ ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow
       const SurfacePlane plane = plane_at(pixels, x, y);
       const ShadowMap& map = plan.maps()[static_cast<std::size_t>(serving)];
       const TexelsOnPlane texels(pixels, map, plane, point, x, y);
+      const double bias_world = pixels.knows_occluders() ? texels.bias_world(plan.bias) : 0.0;
       Pixels::Place place{};
-      if (!texels.shown(glm::floor(texels.place()) + 0.5, place)) continue;
-      const double taken = lit_between(pixels, plane, x, y, place);
-      if (taken < 0.0) continue;
+      const bool shown = texels.shown(glm::floor(texels.place()) + 0.5, place);
+      const double taken = shown ? lit_between(pixels, plane, x, y, place, bias_world) : -1.0;
+      // Where two surfaces meet, one often hides the middles of the other's texels. What is close enough to
+      // be lit at the pixel is closer still there.
+      const double of_texel = taken >= 0.0 ? std::abs(taken - lit_alike(pixels, plane, x, y, place))
+                                           : pixels.lit(x, y, bias_world) - lit;
+      if (taken < 0.0 && !(of_texel > 0.0)) continue;
       known += 1.0;
-      const double of_texel = std::abs(taken - lit_alike(pixels, plane, x, y, place));
-      const double mean = half_side > 0.0 ? lit_over(pixels, plane, texels, x, y, half_side) : -1.0;
+      const double mean =
+          half_side > 0.0 ? lit_over(pixels, plane, texels, x, y, half_side, bias_world) : -1.0;
       if (mean < 0.0) {
         wrong += of_texel;
         continue;

@@ -72,15 +72,6 @@ class Kernels {
   bool too_many_ = false;
 };
 
-/// The picture's spans have one value for each pixel.
-bool fits(const ShadowPicture& shadow) noexcept {
-  const Camera& camera = shadow.camera;
-  return camera.width > 0 && camera.height > 0 && shadow.mask.size() == shadow.view_depths.size() &&
-         shadow.mask.size() / static_cast<std::size_t>(camera.width) ==
-             static_cast<std::size_t>(camera.height) &&
-         shadow.mask.size() % static_cast<std::size_t>(camera.width) == 0;
-}
-
 std::string_view broken(const Budget& budget, const CostModel& costs, const TechniqueSet& among) noexcept {
   if (budget.texels < 0 || budget.bytes < 0 || !is_limit(budget.milliseconds) ||
       !is_limit(budget.target_error) || !is_limit(budget.alike))
@@ -292,7 +283,7 @@ TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, 
                                  const PlanOptions& base) noexcept {
   TechniqueChoice choice;
   choice.invalid_field = broken(budget, costs, among);
-  if (choice.invalid_field.empty() && !fits(shadow)) choice.invalid_field = "shadow";
+  if (choice.invalid_field.empty() && !shadow.is_whole()) choice.invalid_field = "shadow";
   if (!choice.invalid_field.empty()) return choice;
   Choosing choosing(view.camera, costs);
   const bool positional = !std::holds_alternative<DirectionalLight>(light);

@@ -135,8 +135,9 @@ std::string expected_part(const std::vector<Row>& rows) {
            short_number(check.correlation) + ". A correct forecast would have at most " +
            short_number(check.attainable) + ", because counts of few pixels vary.";
   return out +
-         " Each pixel takes the exact shadow at the middle of its texel: no bias, and no detail below a "
-         "pixel.</p>\n";
+         " Each pixel takes the exact shadow at the middle of its texel, and the light that the bias lets "
+         "in: no "
+         "detail below a pixel.</p>\n";
 }
 
 }  // namespace gnomon::report

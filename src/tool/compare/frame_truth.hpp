@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "gnomon/study/expected_error.hpp"
 #include "stage.hpp"
 
 namespace gnomon::tool {
@@ -18,7 +19,9 @@ struct FrameTruth {
   /// The same one step of a viewer earlier, through the same pixels; equal where the scene is at rest.
   std::vector<float> lit_before;
   std::uint64_t undecided = 0;
-  std::vector<float> depths;  ///< view depths of the surfaces, 0: none
+  std::vector<float> depths;              ///< view depths of the surfaces, 0: none
+  std::vector<float> occluder_distances;  ///< of what is in shadow, see ShadowPicture; -1 elsewhere
+  [[nodiscard]] ShadowPicture picture() const noexcept { return {camera, lit, depths, occluder_distances}; }
   /// The light over whole pixels; empty where it was not asked for.
   struct Pixels {
     std::vector<float> light, light_before;  ///< of the frame, and of the one before through its own camera

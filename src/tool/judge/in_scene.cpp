@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 #include <stdexcept>
+#include <utility>
 
 #include "edit_words.hpp"
 #include "float_channel.hpp"
@@ -56,7 +57,7 @@ void complete(judge::Capture& capture, const Scene& scene, const trace::Tracer& 
 /// The exact shadow of one light, as the camera sees it.
 struct Truth {
   std::vector<trace::Verdict> verdicts;
-  std::vector<float> lit, depths;
+  std::vector<float> lit, depths, occluder_distances;
 };
 
 Truth truth_of(render::Renderer& renderer, const render::PreparedFilter& filter, const trace::Tracer& tracer,
@@ -67,7 +68,9 @@ Truth truth_of(render::Renderer& renderer, const render::PreparedFilter& filter,
   const trace::SurfacePoints points =
       trace::surface_points(tracer, camera, light, renderer.positions(), renderer.normals());
   Truth truth;
-  truth.verdicts = trace::hard_reference(tracer, points, light).pixels;
+  trace::HardReference hard = trace::hard_reference(tracer, points, light);
+  truth.occluder_distances = trace::occluder_distances(tracer, points, light, hard);
+  truth.verdicts = std::move(hard.pixels);
   truth.lit = view::lit_of(truth.verdicts, truth.verdicts.size());
   const glm::dvec3 forward = camera_axes(camera).forward;
   for (const trace::SurfacePoint& point : points.pixels)
@@ -90,7 +93,8 @@ DrawnErrors drawn(render::Renderer& renderer, const render::PreparedFilter& filt
       encode_png(view::misclassified_picture(mask, truth.verdicts, renderer.normals()));
   picture.assign(bytes.begin(), bytes.end());
   pixels = errors.pixels;
-  const ExpectedError expected = expected_error(plan, {camera, truth.lit, truth.depths});
+  const ExpectedError expected =
+      expected_error(plan, {camera, truth.lit, truth.depths, truth.occluder_distances});
   return {errors.false_lit + errors.false_shadow, errors.false_lit, errors.false_shadow, expected.share()};
 }
 

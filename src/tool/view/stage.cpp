@@ -339,8 +339,9 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
     if (!side.pages) {
       const FloatImage positions = renderer_.positions();
       const std::vector<float> depths = channel(positions, static_cast<std::size_t>(positions.channels) - 1);
+      const std::vector<float> lit = lit_of(truth_.verdicts(), depths.size());
       side.expected_wrong =
-          expected_error(side.drawn, {camera_, lit_of(truth_.verdicts(), depths.size()), depths}).share();
+          expected_error(side.drawn, {camera_, lit, depths, truth_.occluder_distances()}).share();
     }
   }
   draw_view(state, side, canvas);

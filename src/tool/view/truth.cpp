@@ -56,6 +56,7 @@ void Truth::begin(std::shared_ptr<const trace::Tracer> tracer, const Camera& cam
   height_ = positions.height;
   verdicts_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                    trace::Verdict::none);
+  occluder_distances_.assign(verdicts_.size(), -1.0f);
   thread_ = std::jthread([this, tracer = std::move(tracer), camera, light, positions = std::move(positions),
                           normals = std::move(normals)](const std::stop_token& stopped) {
     for (int begin = 0; begin < height_ && !stopped.stop_requested(); begin += kBand) {
@@ -63,8 +64,10 @@ void Truth::begin(std::shared_ptr<const trace::Tracer> tracer, const Camera& cam
       const trace::SurfacePoints points = trace::surface_points(
           *tracer, camera, light, rows_of(positions, begin, end), rows_of(normals, begin, end));
       const trace::HardReference rows = trace::hard_reference(*tracer, points, light);
-      std::copy(rows.pixels.begin(), rows.pixels.end(),
-                verdicts_.begin() + static_cast<std::ptrdiff_t>(begin) * width_);
+      const std::vector<float> distances = trace::occluder_distances(*tracer, points, light, rows);
+      const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(begin) * width_;
+      std::copy(rows.pixels.begin(), rows.pixels.end(), verdicts_.begin() + first);
+      std::copy(distances.begin(), distances.end(), occluder_distances_.begin() + first);
       rows_ = end;
     }
   });

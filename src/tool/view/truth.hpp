@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -35,6 +36,8 @@ class Truth {
   /// Pixels of the rows that are done, from the top.
   [[nodiscard]] std::span<const trace::Verdict> verdicts() const;
   [[nodiscard]] bool done() const;
+  /// ShadowPicture::occluder_distances, once it is done.
+  [[nodiscard]] std::span<const float> occluder_distances() const { return occluder_distances_; }
   /// Changes with each row that is done.
   [[nodiscard]] int rows() const { return rows_; }
 
@@ -42,6 +45,7 @@ class Truth {
   std::string picture_;
   int width_ = 0, height_ = 0;
   std::vector<trace::Verdict> verdicts_;
+  std::vector<float> occluder_distances_;
   std::atomic<int> rows_ = 0;
   std::jthread thread_;
 };

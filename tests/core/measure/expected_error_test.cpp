@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "gnomon/gnomon.hpp"
 #include "gnomon/measure.hpp"
+#include "gnomon/study/bias.hpp"
 
 namespace gnomon::test {
 namespace {
@@ -18,7 +20,7 @@ constexpr int kWidth = 400, kHeight = 400;
 /// A floor under the camera, half in the shadow of an edge through its middle, and the sun straight above.
 struct Floor {
   Camera camera;
-  std::vector<float> mask, depths;
+  std::vector<float> mask, depths, occluder_distances;
   Light sun = DirectionalLight{{0.0, -1.0, 0.0}};
   std::vector<Box> boxes = {{{-50, -0.5, -50}, {50, 0, 50}}};
   PlanOptions options;
@@ -38,8 +40,12 @@ struct Floor {
       }
     }
   }
+  /// Distance from the edge, below 0 in the shadow.
+  [[nodiscard]] static double from_edge(const glm::dvec3& point, double turned) {
+    return std::sin(turned) * (point.x - 0.017) - std::cos(turned) * (point.z + 0.023);
+  }
   [[nodiscard]] static bool is_lit(const glm::dvec3& point, double turned) {
-    return std::sin(turned) * (point.x - 0.017) - std::cos(turned) * (point.z + 0.023) > 0.0;
+    return from_edge(point, turned) > 0.0;
   }
   /// Where the pixel's ray meets the floor's plane.
   [[nodiscard]] glm::dvec3 hit(int x, int y) const {
@@ -52,7 +58,7 @@ struct Floor {
     return from - ray * (from.y / ray.y);
   }
   [[nodiscard]] ShadowPlan plan() const { return make_plan(camera, sun, {boxes, boxes}, options); }
-  [[nodiscard]] ShadowPicture picture() const { return {camera, mask, depths}; }
+  [[nodiscard]] ShadowPicture picture() const { return {camera, mask, depths, occluder_distances}; }
 };
 
 /// The camera looks down, its image turned by half a radian against the map.
@@ -87,24 +93,28 @@ TEST(ExpectedError, is_a_texels_mean_distance_from_its_middle_times_the_length_o
   }
 }
 
-/// Whether the floor is lit where the light through a place in the map meets it.
-bool lit_under(const glm::dmat4& world_from_clip, double ndc_x, double ndc_y, double turned) {
+/// Whether the floor is lit where the light through a place in the map meets it. What lies less than this
+/// behind the edge is.
+bool lit_under(const glm::dmat4& world_from_clip, double ndc_x, double ndc_y, double turned,
+               double lit_behind_edge) {
   glm::dvec3 ends[2];
   for (int end = 0; end < 2; ++end) {
     const glm::dvec4 at = world_from_clip * glm::dvec4(ndc_x, ndc_y, end - 0.5, 1.0);
     ends[end] = glm::dvec3(at) / at.w;
   }
-  return Floor::is_lit(ends[0] + (ends[1] - ends[0]) * (-ends[0].y / (ends[1].y - ends[0].y)), turned);
+  const glm::dvec3 point = ends[0] + (ends[1] - ends[0]) * (-ends[0].y / (ends[1].y - ends[0].y));
+  return Floor::from_edge(point, turned) > -lit_behind_edge;
 }
 
 /// Pixels whose exact shadow is another in the middle of their texel, in double precision. With a kernel, on
 /// the other side of one half of the mean over a box of texels.
-double wrong_by_texels(const Floor& floor, const ShadowMap& map, double turned, double kernel_texels = 0.0) {
+double wrong_by_texels(const Floor& floor, const ShadowMap& map, double turned, double kernel_texels = 0.0,
+                       double lit_behind_edge = 0.0) {
   const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
   double wrong = 0.0;
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const auto pixel = static_cast<std::size_t>(i);
-    if (floor.depths[pixel] == 0.0f) continue;
+    if (floor.depths[pixel] == 0.0f || floor.mask[pixel] < 0.0f) continue;
     const glm::dvec3 point = floor.hit(i % kWidth, i / kWidth);
     const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
     const double x = (clip.x / clip.w + 1.0) * 0.5 * map.width,
@@ -118,7 +128,7 @@ double wrong_by_texels(const Floor& floor, const ShadowMap& map, double turned, 
       for (double column = std::floor(x - kernel_texels); column <= x + kernel_texels; column += 1.0) {
         const double weight = part(column, x) * part(row, y);
         const bool lit = lit_under(world_from_clip, (column + 0.5) * 2.0 / map.width - 1.0,
-                                   (row + 0.5) * 2.0 / map.height - 1.0, turned);
+                                   (row + 0.5) * 2.0 / map.height - 1.0, turned, lit_behind_edge);
         mean += lit ? weight : 0.0;
         weights += weight;
       }
@@ -168,6 +178,95 @@ TEST(ExpectedError, averages_over_texels_are_right_more_often_along_an_edge) {
     EXPECT_LT(wrong, 0.8 * hard) << kernel;
     EXPECT_NEAR(expected, 0.5 * (hard + wrong), 0.15 * hard) << kernel;
   }
+}
+
+/// An endless wall stands on the edge, and the sun comes over it from the lit side at 45 degrees. The
+/// occluder of a dark point is the wall.
+struct WallsFoot : Floor {
+  explicit WallsFoot(double turned) : Floor(from_above(), turned) {
+    options.resolution.max_size = 128;
+    options.bias.slope_texels = 2.0;
+    sun = DirectionalLight{{-std::sin(turned), -1.0, std::cos(turned)}};
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      const double behind = -from_edge(hit(i % kWidth, i / kWidth), turned);
+      occluder_distances.push_back(behind >= 0.0 ? static_cast<float>(behind * std::sqrt(2.0)) : -1.0f);
+    }
+  }
+  /// Way behind the edge up to which the bias is longer than the way along the light to the wall.
+  [[nodiscard]] double lit_behind_edge(const ShadowPlan& plan) const {
+    const ShadowMap& map = plan.maps()[0];
+    const glm::dvec3 light = glm::normalize(std::get<DirectionalLight>(sun).direction);
+    const Receiver receiver{map.clip_from_world, map.texels(), light, glm::dvec3(0.0), {0, 1, 0}};
+    const glm::dvec2 texel = texel_extent_world(map.clip_from_world, map.texels(), light, glm::dvec3(0.0));
+    // At 45 degrees an offset along the normal is as long along the light as it has texels.
+    return (plane_bias_world(plan.bias, receiver, 0.0) +
+            plan.bias.normal_offset_texels * std::max(texel.x, texel.y)) /
+           std::sqrt(2.0);
+  }
+};
+
+TEST(ExpectedError, counts_the_light_that_the_bias_lets_in_at_a_walls_foot) {
+  for (const double kernel : {0.0, 1.5}) {
+    double by_texels = 0.0, wrong = 0.0, expected = 0.0, without = 0.0;
+    for (const double turned : {0.15, 1.1}) {
+      WallsFoot foot(turned);
+      const ShadowPlan plan = foot.plan();
+      ASSERT_EQ(plan.maps().size(), 1u);
+      const double strip = foot.lit_behind_edge(plan);
+      by_texels += wrong_by_texels(foot, plan.maps()[0], turned, 0.0, strip);
+      wrong += wrong_by_texels(foot, plan.maps()[0], turned, kernel, strip);
+      expected += expected_error(plan, foot.picture(), kernel).wrong_pixels;
+      foot.occluder_distances.clear();
+      without += expected_error(plan, foot.picture(), kernel).wrong_pixels;
+    }
+    EXPECT_GT(wrong, 500.0);
+    EXPECT_NEAR(expected, 0.5 * (by_texels + wrong), 0.1 * wrong) << kernel;
+    EXPECT_LT(without, 0.8 * expected) << kernel;
+  }
+}
+
+TEST(ExpectedError, a_middle_that_the_wall_hides_is_lit_where_its_pixel_is) {
+  double wrong = 0.0, expected = 0.0;
+  for (const double turned : {0.15, 0.6, 1.1, 1.9, 2.7}) {
+    WallsFoot foot(turned);
+    const ShadowPlan plan = foot.plan();
+    const double strip = foot.lit_behind_edge(plan);
+    // The lit side is behind the wall, which shows its dark side in its place.
+    for (std::size_t i = 0; i < foot.mask.size(); ++i) {
+      if (foot.mask[i] < 0.5f) continue;
+      foot.mask[i] = -1.0f;
+      foot.depths[i] *= 0.5f;
+    }
+    wrong += wrong_by_texels(foot, plan.maps()[0], turned, 0.0, strip);
+    expected += expected_error(plan, foot.picture()).wrong_pixels;
+  }
+  EXPECT_GT(wrong, 1000.0);
+  EXPECT_NEAR(expected, wrong, 0.1 * wrong);
+}
+
+TEST(ExpectedError, a_plate_closer_than_the_bias_casts_no_shadow) {
+  Floor floor(from_above(), 0.9);
+  const ShadowPlan plan = floor.plan();
+  const double dark = static_cast<double>(std::count(floor.mask.begin(), floor.mask.end(), 0.0f));
+  const double edges = expected_error(plan, floor.picture()).wrong_pixels;
+  const ShadowMap& map = plan.maps()[0];
+  // Light straight down on a level floor: the constant part is all there is.
+  const glm::dvec2 texel = texel_extent_world(map.clip_from_world, map.texels(), {0, -1, 0}, glm::dvec3(0.0));
+  const double bias = plan.bias.constant_texels * std::max(texel.x, texel.y);
+  const auto wrong_at = [&](double distance) {
+    floor.occluder_distances.assign(floor.mask.size(), static_cast<float>(distance));
+    for (std::size_t i = 0; i < floor.mask.size(); ++i)
+      if (floor.mask[i] > 0.5f) floor.occluder_distances[i] = -1.0f;
+    return expected_error(plan, floor.picture()).wrong_pixels;
+  };
+  EXPECT_NEAR(wrong_at(0.99 * bias), dark, 1e-3 * dark);
+  EXPECT_NEAR(wrong_at(0.0), dark, 1e-3 * dark);
+  EXPECT_EQ(wrong_at(1.01 * bias), edges);
+  // Not known anywhere is as not given.
+  EXPECT_EQ(wrong_at(-1.0), edges);
+  EXPECT_EQ(wrong_at(std::numeric_limits<double>::quiet_NaN()), edges);
+  floor.occluder_distances.pop_back();
+  EXPECT_EQ(expected_error(plan, floor.picture()).counted_pixels, 0.0);
 }
 
 TEST(ExpectedError, without_a_shadow_a_surface_or_a_map_nothing_or_all_of_the_shadow_is_wrong) {

@@ -24,7 +24,7 @@ struct Plain {
   std::vector<CasterWork> work;
   Light light = DirectionalLight{{0.2, -1, 0.1}};
   Camera picture = camera;
-  std::vector<float> mask, depths;
+  std::vector<float> mask, depths, occluder_distances;
   CostModel costs{{0.5, 0.2, 2.0, 1.0, 40.0, 3.0}, kFilters};
   Budget budget;
   TechniqueSet among;
@@ -56,7 +56,7 @@ struct Plain {
       mask.push_back(dark ? 0.0f : 1.0f);
     }
   }
-  [[nodiscard]] ShadowPicture shadow() const { return {picture, mask, depths}; }
+  [[nodiscard]] ShadowPicture shadow() const { return {picture, mask, depths, occluder_distances}; }
   [[nodiscard]] TechniqueChoice choose() const {
     return choose_technique(camera, shadow(), light, {casters, receivers}, work, among, budget, costs, base);
   }
@@ -366,6 +366,9 @@ TEST(Technique, broken_input_is_named) {
   plain.mask.pop_back();
   EXPECT_EQ(field(plain), "shadow");
   plain.depths.pop_back();
+  EXPECT_EQ(field(plain), "shadow");
+  plain = {};
+  plain.occluder_distances = {1.0f};
   EXPECT_EQ(field(plain), "shadow");
   plain = {};
   plain.picture.height = 0;
