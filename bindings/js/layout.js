@@ -297,7 +297,7 @@ export const structs = {
     },
   },
   shadow_picture: {
-    bytes: 40,
+    bytes: 48,
     fields: {
       size: [0, 'u32', 0],
       reserved: [4, 'u32', 0],
@@ -306,6 +306,7 @@ export const structs = {
       view_depths: [16, 'ptr', 0],
       pixel_count: [24, 'i64', 0],
       kernel_texels: [32, 'f64', 0],
+      occluder_distances: [40, 'ptr', 0],
     },
   },
   wrong_pixels: {

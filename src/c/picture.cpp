@@ -17,6 +17,7 @@ const char* to_picture(const gnomon_shadow_picture* from, ShadowPicture& to) noe
   const auto count = static_cast<std::size_t>(p.pixel_count);
   to.mask = {p.mask, count};
   to.view_depths = {p.view_depths, count};
+  if (p.occluder_distances != nullptr) to.occluder_distances = {p.occluder_distances, count};
   return nullptr;
 }
 

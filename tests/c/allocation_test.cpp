@@ -72,7 +72,7 @@ TEST(AllocationInC, plans_allocate_nothing_and_handles_do) {
   gnomon_shadow_picture picture;
   gnomon_shadow_picture_default(&picture, sizeof picture);
   picture.camera = &in.camera;
-  picture.mask = picture.view_depths = pixels.data();
+  picture.mask = picture.view_depths = picture.occluder_distances = pixels.data();
   picture.pixel_count = 960 * 640;
   gnomon_wrong_pixels wrong;
   before = allocations;

@@ -185,7 +185,7 @@ void write_clusters(File& file, const gnomon_camera& camera, std::mt19937_64& ra
 void write_picture(File& file, const Street& street, const gnomon_camera& camera_in_c, const PlanInC& found) {
   const Camera& camera = street.camera;
   const CameraAxes axes = camera_axes(camera);
-  std::vector<float> mask, depths;
+  std::vector<float> mask, depths, distances;
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const double right = camera.left + (camera.right - camera.left) * (i % kWidth + 0.5) / kWidth,
                  up = camera.top + (camera.bottom - camera.top) * (i / kWidth + 0.5) / kHeight;
@@ -194,6 +194,7 @@ void write_picture(File& file, const Street& street, const gnomon_camera& camera
     const glm::dvec3 at = camera.position + ray * depth;
     depths.push_back(static_cast<float>(depth));
     mask.push_back(at.x + 0.4 * at.z - 8.0 * std::floor((at.x + 0.4 * at.z) / 8.0) < 3.0 ? 1.0f : 0.0f);
+    distances.push_back(static_cast<float>(i % 9) * 0.125f);
   }
   gnomon_shadow_picture picture;
   gnomon_shadow_picture_default(&picture, sizeof picture);
@@ -201,17 +202,21 @@ void write_picture(File& file, const Street& street, const gnomon_camera& camera
   picture.mask = mask.data();
   picture.view_depths = depths.data();
   picture.pixel_count = kWidth * kHeight;
-  gnomon_wrong_pixels wrong, averaged;
+  gnomon_wrong_pixels wrong, averaged, biased;
   gnomon_expected_error(&found.plan, &picture, &wrong, nullptr);
   picture.kernel_texels = 1.5;
   gnomon_expected_error(&found.plan, &picture, &averaged, nullptr);
+  picture.occluder_distances = distances.data();
+  gnomon_expected_error(&found.plan, &picture, &biased, nullptr);
   std::vector<double> edges(3 * 200);
   int64_t written = 0;
   gnomon_shadow_edge_points(&picture, edges.data(), 200, &written, nullptr);
   file.list(mask);
   for (const float depth : depths) file.one(depth);
+  for (const float distance : distances) file.one(distance);
   file.one(wrong);
   file.one(averaged);
+  file.one(biased);
   file.one(static_cast<std::uint32_t>(written));
   for (std::size_t i = 0; i < static_cast<std::size_t>(3 * written); ++i) file.one(edges[i]);
   std::printf("%.1f of %.0f pixels wrong, %d points of edges\n", wrong.wrong, wrong.counted,

@@ -22,7 +22,7 @@ struct Street {
   Camera camera =
       perspective_camera({0, 3, 10}, {0, -0.1, -1}, {0, 1, 0}, 1.0, 1.5, 0.2, 250.0, kWidth, kHeight);
   DirectionalLight sun{{0.4, -1, 0.3}};
-  std::vector<float> mask, depths;
+  std::vector<float> mask, depths, distances;
   gnomon_camera camera_in_c = in_c(camera);
   gnomon_shadow_picture picture{};
   PlanInC found;
@@ -38,6 +38,7 @@ struct Street {
         const glm::dvec3 at = camera.position + ray * depth;
         depths.push_back(static_cast<float>(depth));
         mask.push_back(std::sin(at.x + 0.4 * at.z) > 0.3 ? 1.0f : 0.0f);
+        distances.push_back(static_cast<float>(0.5 + 0.5 * std::sin(at.z)));
       }
     }
     gnomon_shadow_picture_default(&picture, sizeof picture);
@@ -49,7 +50,10 @@ struct Street {
   Street(const Street&) = delete;
   Street& operator=(const Street&) = delete;
 
-  [[nodiscard]] ShadowPicture shadow() const { return {camera, mask, depths}; }
+  [[nodiscard]] ShadowPicture shadow() const {
+    return {camera, mask, depths,
+            picture.occluder_distances == nullptr ? std::span<const float>() : distances};
+  }
   /// The plan on both sides.
   ShadowPlan plan(const PlanOptions& options) {
     const InputInC in(camera, sun, boxes, boxes, options);
@@ -94,12 +98,20 @@ TEST(PictureInC, plans_are_expected_to_get_the_pixels_of_cpp_wrong) {
     expect_same(street, plan);
     EXPECT_EQ(expected_error(plan, street.shadow(), kernel).wrong_pixels, hard) << kernel;
   }
+  // Errors of the bias.
+  street.picture.occluder_distances = street.distances.data();
+  for (const double kernel : {0.0, 1.5}) {
+    street.picture.kernel_texels = kernel;
+    expect_same(street, plan);
+  }
+  EXPECT_GT(expected_error(plan, street.shadow()).wrong_pixels, 1.01 * hard);
   // Pixels of all kinds, drawn by lot.
   std::mt19937_64 random(4);
   for (int i = 0; i < 4000; ++i) {
     const float odd[] = {-1.0f, kNan, 0.5f, 7.0f, 0.0f, 1.0f, std::numeric_limits<float>::infinity()};
     street.mask[random() % street.mask.size()] = odd[random() % 7];
     street.depths[random() % street.depths.size()] = odd[random() % 7];
+    street.distances[random() % street.distances.size()] = odd[random() % 7];
   }
   expect_same(street, street.plan({}));
 }
@@ -201,6 +213,7 @@ TEST(PictureInC, what_is_refused_is_named) {
 
 TEST(PictureInC, random_maps_and_pixels_give_a_share) {
   Street street;
+  street.picture.occluder_distances = street.distances.data();
   std::mt19937_64 random(11);
   for (int i = 0; i < 300; ++i) {
     street.plan({});
@@ -212,6 +225,7 @@ TEST(PictureInC, random_maps_and_pixels_give_a_share) {
     for (int k = 0; k < 200; ++k) {
       const auto bits = static_cast<std::uint32_t>(random());
       street.depths[random() % street.depths.size()] = std::bit_cast<float>(bits);
+      street.distances[random() % street.distances.size()] = std::bit_cast<float>(~bits);
     }
     gnomon_wrong_pixels pixels;
     ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &pixels, nullptr), GNOMON_OK);

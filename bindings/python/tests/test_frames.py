@@ -98,9 +98,9 @@ def test_all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library
 
     count = file.count()
     assert count == camera.width * camera.height
-    mask, depths = (file.numbers("f4", camera.height, camera.width) for _ in range(2))
-    for kernel in (0.0, 1.5):
-        wrong = gnomon.expected_error(plan, camera, mask, depths, kernel_texels=kernel)
+    mask, depths, distances = (file.numbers("f4", camera.height, camera.width) for _ in range(3))
+    for kernel, occluders in ((0.0, None), (1.5, None), (1.5, distances)):
+        wrong = gnomon.expected_error(plan, camera, mask, depths, kernel_texels=kernel, occluder_distances=occluders)
         assert bytes(file.struct("wrong_pixels")) == np.array(wrong).tobytes()
     edges = file.numbers("f8", file.count(), 3)
     assert gnomon.shadow_edge_points(camera, mask, depths, room=len(edges)).tobytes() == edges.tobytes()
@@ -118,7 +118,7 @@ def test_pictures_are_read_where_they_lie_and_foreign_maps_are_expected_to_err_a
     plan = gnomon.plan(camera, sun, boxes, boxes, resolution_max_size=64)
     mask = (np.indices((64, 96)).sum(axis=0) // 9 % 2).astype(np.float32)
     depths = np.full((64, 96), 12, dtype=np.float32)
-    struct, keep = gnomon._pictures._picture(camera, mask, depths)
+    struct, keep = gnomon._pictures._picture(camera, mask=mask, view_depths=depths)
     assert (struct.mask, struct.view_depths) == (mask.ctypes.data, depths.ctypes.data)
     own = gnomon.expected_error(plan, camera, mask, depths)
     foreign = gnomon.Plan.foreign([gnomon.Map.foreign(m.clip_from_world, m.width, m.height, m.depth_begin, m.depth_end) for m in plan.maps])

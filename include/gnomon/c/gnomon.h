@@ -731,6 +731,10 @@ typedef struct gnomon_shadow_picture {
   /// gnomon_expected_error alone reads it: half side of the box of texels whose comparisons the filter
   /// averages. 0, the default, less, and not a number: one texel, hard comparison. More than 33 count as 33.
   double kernel_texels;
+  /// gnomon_expected_error alone reads it: for each dark pixel the distance along the light from the surface
+  /// to the occluder nearest the light, world units. A bias that is longer lights the surface. Negative, not
+  /// a number: not known there. NULL, the default: not known, and errors of the bias do not count.
+  const float* occluder_distances;
 } gnomon_shadow_picture;
 /// Fills in defaults. `size`: sizeof *picture.
 GNOMON_EXPERIMENTAL int32_t gnomon_shadow_picture_default(gnomon_shadow_picture* picture, uint32_t size);
@@ -742,10 +746,10 @@ typedef struct gnomon_wrong_pixels {
   double share;    ///< wrong over counted, in 0..1; 0 where none counts
 } gnomon_wrong_pixels;
 /// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. Each pixel
-/// takes the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias
-/// do not count. Shadows narrower than a pixel count less than they should: the picture should be as fine as
-/// the texels. A plan without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure.
-/// Time grows with the pixels.
+/// takes the shadow at the middle of its texel, where the texel meets the surface. Light that the
+/// plan's bias lets in counts where occluder_distances are known. Shadows narrower than a pixel count less
+/// than they should: the picture should be as fine as the texels. A plan without maps gets all that is dark
+/// wrong. Foreign matrices serve as in gnomon_measure. Time grows with the pixels.
 GNOMON_EXPERIMENTAL int32_t gnomon_expected_error(const gnomon_plan* plan,
                                                   const gnomon_shadow_picture* picture,
                                                   gnomon_wrong_pixels* pixels, const char** invalid_field);

@@ -655,6 +655,7 @@ class shadow_picture(ctypes.Structure):
         ("view_depths", ctypes.c_void_p),
         ("pixel_count", ctypes.c_int64),
         ("kernel_texels", ctypes.c_double),
+        ("occluder_distances", ctypes.c_void_p),
     ]
     size: int
     reserved: int
@@ -663,9 +664,10 @@ class shadow_picture(ctypes.Structure):
     view_depths: Any
     pixel_count: int
     kernel_texels: float
+    occluder_distances: Any
 
 
-assert ctypes.sizeof(shadow_picture) == 48
+assert ctypes.sizeof(shadow_picture) == 56
 
 
 class wrong_pixels(ctypes.Structure):

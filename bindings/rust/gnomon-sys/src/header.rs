@@ -737,6 +737,8 @@ pub struct gnomon_shadow_picture {
     pub pixel_count: i64,
     /// gnomon_expected_error alone reads it: half side of the box of texels whose comparisons the filter averages. 0, the default, less, and not a number: one texel, hard comparison. More than 33 count as 33.
     pub kernel_texels: f64,
+    /// gnomon_expected_error alone reads it: for each dark pixel the distance along the light from the surface to the occluder nearest the light, world units. A bias that is longer lights the surface. Negative, not a number: not known there. NULL, the default: not known, and errors of the bias do not count.
+    pub occluder_distances: *const f32,
 }
 
 /// The pixels that a plan will get wrong. Its size is fixed.
@@ -1172,7 +1174,7 @@ extern "C" {
     pub fn gnomon_measure_points(map: *const gnomon_map, camera: *const gnomon_camera, points: *const f64, normals: *const f64, count: i64, errors: *mut gnomon_point_error, invalid_field: *mut *const c_char) -> i32;
     /// Fills in defaults. `size`: sizeof *picture.
     pub fn gnomon_shadow_picture_default(picture: *mut gnomon_shadow_picture, size: u32) -> i32;
-    /// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. Each pixel takes the shadow at the middle of its texel, where the texel meets the surface. Errors of the bias do not count. Shadows narrower than a pixel count less than they should: the picture should be as fine as the texels. A plan without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure. Time grows with the pixels.
+    /// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. Each pixel takes the shadow at the middle of its texel, where the texel meets the surface. Light that the plan's bias lets in counts where occluder_distances are known. Shadows narrower than a pixel count less than they should: the picture should be as fine as the texels. A plan without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure. Time grows with the pixels.
     pub fn gnomon_expected_error(plan: *const gnomon_plan, picture: *const gnomon_shadow_picture, pixels: *mut gnomon_wrong_pixels, invalid_field: *mut *const c_char) -> i32;
     /// Writes points of the surfaces along the shadow's edges, world space, three doubles each. At most `room` of them, evenly over the picture; `*written` is how many. A plan for them (gnomon_view::points) has its texels where they show.
     pub fn gnomon_shadow_edge_points(picture: *const gnomon_shadow_picture, points: *mut f64, room: i64, written: *mut i64, invalid_field: *mut *const c_char) -> i32;
@@ -1256,7 +1258,7 @@ macro_rules! each_layout {
         $check!(gnomon_measure_options, 24, size: 0, map: 4, columns: 8, rows: 12, depths: 16, reserved: 20);
         $check!(gnomon_stats, 72, size: 0, reserved: 4, p50: 8, p95: 16, max: 24, mean: 32, share_undersampled: 40, storage: 48, samples: 56, outside: 64);
         $check!(gnomon_point_error, 88, status: 0, reserved: 4, m_max: 8, m_min: 16, m_s: 24, m_t: 32, m_area: 40, anisotropy: 48, perspective_max: 56, perspective_s: 64, perspective_t: 72, projection: 80);
-        $check!(gnomon_shadow_picture, 48, size: 0, reserved: 4, camera: 8, mask: 16, view_depths: 24, pixel_count: 32, kernel_texels: 40);
+        $check!(gnomon_shadow_picture, 56, size: 0, reserved: 4, camera: 8, mask: 16, view_depths: 24, pixel_count: 32, kernel_texels: 40, occluder_distances: 48);
         $check!(gnomon_wrong_pixels, 24, wrong: 0, counted: 8, share: 16);
         $check!(gnomon_page_options, 72, size: 0, policy: 4, plan: 8, page_texels: 16, capacity: 20, target_m: 24, share: 32, levels_per_octave: 40, trials: 44, virtual_texels: 48, fallback: 52, reach_texels: 56, least_light_sine: 64);
         $check!(gnomon_page, 20, level: 0, column: 4, row: 8, slot: 12, points: 16);

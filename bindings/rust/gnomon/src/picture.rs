@@ -16,6 +16,10 @@ pub struct ShadowPicture<'a> {
     pub mask: &'a [f32],
     /// View depths of the surfaces, as many, world units. No surface: 0, less, infinity, not a number.
     pub view_depths: &'a [f32],
+    /// For each dark pixel the distance along the light from the surface to the occluder nearest the light, world units. A bias
+    /// that is longer lights the surface. Negative, not a number: not known there. Empty: not known, and errors of the bias do not
+    /// count.
+    pub occluder_distances: &'a [f32],
 }
 
 /// The pixels that a plan will get wrong.
@@ -31,11 +35,17 @@ impl ShadowPicture<'_> {
         if self.view_depths.len() != self.mask.len() {
             return Err(crate::Error::new("shadow_picture.view_depths"));
         }
+        if !self.occluder_distances.is_empty() && self.occluder_distances.len() != self.mask.len() {
+            return Err(crate::Error::new("shadow_picture.occluder_distances"));
+        }
         let mut picture = unsafe { picture.assume_init() };
         picture.camera = camera;
         picture.mask = self.mask.as_ptr();
         picture.view_depths = self.view_depths.as_ptr();
         picture.pixel_count = self.mask.len() as i64;
+        if !self.occluder_distances.is_empty() {
+            picture.occluder_distances = self.occluder_distances.as_ptr();
+        }
         Ok(picture)
     }
 
@@ -58,14 +68,14 @@ impl ShadowPicture<'_> {
 }
 
 /// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them; also of foreign maps
-/// ([`Plan::foreign`]). Each pixel takes the shadow at the middle of its texel. Errors of the bias do not count.
+/// ([`Plan::foreign`]). Each pixel takes the shadow at the middle of its texel.
 /// `kernel_texels`: half side of the box of texels whose comparisons a filter averages; 0: one texel, hard comparison.
 ///
 /// ```
 /// use gnomon::{expected_error, Camera, Light, PlanOptions, Scene, ShadowPicture, View};
 /// let camera = Camera::at([0.0, 10.0, 0.0], [0.0, -1.0, 0.0]).orthographic(10.0, 1.0, 0.1, 20.0, 64, 64)?;
 /// let mask: Vec<f32> = (0..64 * 64).map(|pixel| f32::from(u8::from(pixel % 64 < 21))).collect();
-/// let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &[10.0; 64 * 64] };
+/// let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &[10.0; 64 * 64], occluder_distances: &[] };
 /// let boxes = [[-9.0, -1.0, -9.0, 9.0, 0.0, 9.0], [-1.0, 1.0, -9.0, 9.0, 2.0, 9.0]];
 /// let scene = Scene { casters: (&boxes).into(), receivers: (&boxes).into() };
 /// let share = |size| {

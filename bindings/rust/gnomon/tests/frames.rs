@@ -119,11 +119,16 @@ fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
 
     let mask: Vec<f32> = list(&mut file);
     let view_depths: Vec<f32> = file.some(mask.len());
-    let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &view_depths };
+    let distances: Vec<f32> = file.some(mask.len());
+    let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &view_depths, occluder_distances: &[] };
     let found = gnomon::expected_error(&plan, picture, 0.0).unwrap();
     assert_eq!(bytes(&found), bytes(&file.take::<gnomon_wrong_pixels>()));
     let averaged = gnomon::expected_error(&plan, picture, 1.5).unwrap();
     assert_eq!(bytes(&averaged), bytes(&file.take::<gnomon_wrong_pixels>()));
+    let biased =
+        gnomon::expected_error(&plan, ShadowPicture { occluder_distances: &distances, ..picture }, 1.5).unwrap();
+    assert_eq!(bytes(&biased), bytes(&file.take::<gnomon_wrong_pixels>()));
+    assert!(biased.wrong > averaged.wrong);
     assert!(found.wrong > averaged.wrong && averaged.wrong > 0.0);
     let edges: Vec<Point> = list(&mut file);
     let mut points = vec![[0.0; 3]; edges.len()];
@@ -169,12 +174,16 @@ fn bad_input_is_refused_by_name() {
     assert_eq!(field(plan.engine_bias(0, BiasWay::NormalOffset, 0.0, -1)), "depth_bits");
 
     let (mask, depths) = ([1.0f32; 96 * 64], [5.0f32; 96 * 64]);
-    let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &depths };
+    let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &depths, occluder_distances: &[] };
     let expect = |picture| field(gnomon::expected_error(&plan, picture, 0.0));
     assert_eq!(expect(ShadowPicture { mask: &mask[1..], ..picture }), "shadow_picture.view_depths");
     assert_eq!(
         expect(ShadowPicture { mask: &mask[1..], view_depths: &depths[1..], ..picture }),
         "shadow_picture.pixel_count"
+    );
+    assert_eq!(
+        expect(ShadowPicture { occluder_distances: &depths[1..], ..picture }),
+        "shadow_picture.occluder_distances"
     );
     assert_eq!(field(ShadowPicture { view_depths: &[], ..picture }.edge_points(&mut [])), "shadow_picture.view_depths");
     assert_eq!(picture.edge_points(&mut []).unwrap(), 0);
