@@ -15,6 +15,7 @@
 #include "offscreen_context.hpp"
 #include "output.hpp"
 #include "planner_check.hpp"
+#include "replanned.hpp"
 
 namespace gnomon::tool {
 namespace {

@@ -5,235 +5,163 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <nlohmann/json.hpp>
-#include <set>
-#include <stdexcept>
+#include <string>
 
-#include "compare/sweep.hpp"
 #include "output.hpp"
+#include "picks.hpp"
 
 namespace gnomon::tool {
 namespace {
 
-constexpr double kMega = 1e6;
-/// What counts as on the front.
-constexpr double kHit = 1.1;
-
-LightPlacement light_of(const report::Row& row) {
-  LightPlacement light{LightKind::sun, row.light_elevation_deg, row.light_azimuth_deg};
-  if (!light_kind_from_name(row.light, light.kind))
-    throw std::runtime_error("light '" + row.light + "': wants sun, spot or point");
-  return light;
+std::string text_of(const Budget& request) {
+  return request.milliseconds > 0.0 ? fmt::format("{:.1f} ms", request.milliseconds)
+                                    : fmt::format("{:.2f} %", 100.0 * request.target_error);
 }
 
-/// Half side of the box of comparisons that the filter averages, texels.
-double averaged_texels(const render::FilterSettings& filter) noexcept {
-  const render::FilterInfo& info = filter.filter->info;
-  const bool averages = info.has_kernel && info.penumbra_radius_world == nullptr;
-  return averages && filter.unit == render::KernelUnit::texels ? filter.radius + 0.5 : 0.0;
-}
+/// Picks that are on the front, and those that meet their request.
+class Hits {
+ public:
+  explicit Hits(const std::vector<Pick>& picks) {
+    for (const Pick& pick : picks) {
+      const Judged& j = pick.judged;
+      ++picks_;
+      by_measured_ += j.beyond_front <= kHit ? 1 : 0;
+      by_model_ += j.beyond_front_by_model <= kHit ? 1 : 0;
+      met_ += j.over_request <= kHit ? 1 : 0;
+      log_off_ += std::log(j.off_request);
+    }
+  }
+  [[nodiscard]] std::string front() const {
+    return fmt::format("{} of {} picks by measured times, {} by the model's", by_measured_, picks_,
+                       by_model_);
+  }
+  [[nodiscard]] std::string requests() const {
+    return fmt::format("{} of {}; off the best technique for it by a factor of {:.2f}, geometric mean", met_,
+                       picks_, std::exp(log_off_ / std::max(picks_, 1)));
+  }
 
-double wrong_pixels(const report::Row& row) noexcept {
-  return row.errors.false_lit + row.errors.false_shadow;
-}
-
-/// What a technique costs and errs in one view. Measured times scatter; the model's leave the errors alone.
-struct PricedTechnique {
-  double ms, model_ms, error;  ///< the error is measured: a share of the pixels
+ private:
+  int picks_ = 0, by_measured_ = 0, by_model_ = 0, met_ = 0;
+  double log_off_ = 0.0;
 };
 
-/// By how much both cost and error of `pick` exceed those of the technique that beats it most; 1: none does.
-double beyond_front(const PricedTechnique& pick, const std::vector<PricedTechnique>& all,
-                    double PricedTechnique::*cost) noexcept {
-  double most = 1.0;
-  for (const PricedTechnique& other : all)
-    most = std::max(most, std::min(pick.*cost / other.*cost, pick.error / other.error));
-  return most;
+nlohmann::json json_of(const Pick& pick) {
+  const Judged& j = pick.judged;
+  nlohmann::json json{{"view", pick.view},
+                      {"asked", text_of(pick.request)},
+                      {"pick", pick.technique},
+                      {"predicted_ms", j.priced.model_ms},
+                      {"ms", j.priced.ms},
+                      {"wrong", j.priced.error},
+                      {"beyond_front", j.beyond_front},
+                      {"beyond_front_by_model", j.beyond_front_by_model},
+                      {"over_request", j.over_request},
+                      {"off_request", j.off_request}};
+  if (pick.expected) json["expected_wrong"] = *pick.expected;
+  return json;
 }
 
-struct Pick {
-  Budget budget;
-  std::string technique;
-  PricedTechnique priced;
-  double expected = 0.0;                       ///< by the planner, a share of the pixels
-  double beyond = 1.0, beyond_by_model = 1.0;  ///< the front, by measured times and by the model's
-};
-
-/// Budgets and errors at equal steps of their logarithm between the ends of what was measured.
-std::vector<Budget> asked(const std::vector<PricedTechnique>& all) {
-  double least_ms = 1e300, most_ms = 0.0, least_error = 1e300, most_error = 0.0;
-  for (const PricedTechnique& one : all) {
-    least_ms = std::min(least_ms, one.ms);
-    most_ms = std::max(most_ms, one.ms);
-    least_error = std::min(least_error, one.error);
-    most_error = std::max(most_error, one.error);
-  }
-  std::vector<Budget> budgets;
-  for (const double share : {0.25, 0.5, 0.75}) {
-    Budget by_time, by_error;
-    by_time.milliseconds = least_ms * std::pow(most_ms / least_ms, share);
-    by_error.target_error = least_error * std::pow(most_error / least_error, share);
-    budgets.push_back(by_time);
-    budgets.push_back(by_error);
-  }
-  return budgets;
+nlohmann::json json_of(const std::vector<Pick>& picks) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const Pick& pick : picks) list.push_back(json_of(pick));
+  return list;
 }
 
-bool is_pick(const report::Technique& t, const TechniqueChoice& choice, std::string_view filter) {
-  return t.warp == choice.chosen.warp->name && t.cascades == choice.chosen.cascades &&
-         t.map_size == choice.chosen.map_size && t.filter == filter;
+void print_title(const char* view, const char* pick) {
+  print_line(fmt::format(
+      "| {} | request | {} | ms, by the model | ms | misclassified pixels, expected | misclassified pixels | "
+      "beyond the front | beyond it by the model's ms | off the request |\n"
+      "|--|--|--|--:|--:|--:|--:|--:|--:|--:|",
+      view, pick));
 }
 
-std::string asked_text(const Budget& b) {
-  return b.milliseconds > 0.0 ? fmt::format("{:.1f} ms", b.milliseconds)
-                              : fmt::format("{:.2f} %", 100.0 * b.target_error);
+void print(const Pick& pick, const std::string& technique) {
+  const Judged& j = pick.judged;
+  const std::string expected = pick.expected ? fmt::format("{:.2f} %", 100.0 * *pick.expected) : "";
+  print_line(fmt::format("| {} | {} | {} | {:.1f} | {:.1f} | {} | {:.2f} % | {:.2f} | {:.2f} | {:.2f} |",
+                         pick.view, text_of(pick.request), technique, j.priced.model_ms, j.priced.ms,
+                         expected, 100.0 * j.priced.error, j.beyond_front, j.beyond_front_by_model,
+                         j.off_request));
 }
 
-std::vector<Pick> picks_of(const View& view, const report::StoredCostModel& model) {
-  const Replanned replanned(view);
-  std::set<std::string> filters;
-  std::vector<PricedTechnique> all;
-  for (const report::Row& row : view.rows) {
-    filters.insert(row.technique.filter);
-    // A technique without a wrong pixel is not infinitely better than one with a single one.
-    const double least = 0.5 / static_cast<double>(std::max<std::uint64_t>(row.errors.pixels, 1));
-    all.push_back({row.times.total_ms.median, report::predicted_ms(model, replanned.observe(row)),
-                   std::max(wrong_pixels(row), least)});
+void print_flights(const FlightPicks& all) {
+  print_line("\nMeans over the frames of each flight:\n");
+  print_title("flight", "pick of the first frame, of the hardest, and of each");
+  for (std::size_t i = 0; i < all.first_kept.size(); ++i) {
+    print(all.first_kept[i], all.first_kept[i].technique);
+    print(all.hardest_kept[i], all.hardest_kept[i].technique);
+    print(all.renewed[i], "each");
   }
-  report::StoredCostModel known = model;
-  std::erase_if(known.filters, [&](const auto& filter) { return !filters.contains(filter.name); });
-  if (known.filters.empty())
-    throw std::runtime_error("the cost model knows none of the filters of " + view.name);
-  std::vector<FilterCost> storage;
-  const CostModel costs = known.view(storage);
-  std::vector<Pick> picks;
-  for (const Budget& budget : asked(all)) {
-    const TechniqueChoice choice = replanned.choose(view, budget, costs);
-    if (choice.status != PlanStatus::ok) continue;  // nothing to choose: no maps
-    const std::string_view filter = storage[static_cast<std::size_t>(choice.chosen.filter)].name;
-    const auto row = std::find_if(view.rows.begin(), view.rows.end(),
-                                  [&](const report::Row& r) { return is_pick(r.technique, choice, filter); });
-    if (row == view.rows.end())
-      throw std::runtime_error(view.name + ": the sweep is no full product, the pick was not measured");
-    const PricedTechnique& priced = all[static_cast<std::size_t>(row - view.rows.begin())];
-    picks.push_back({budget, row->technique.name(), priced, choice.chosen.error,
-                     beyond_front(priced, all, &PricedTechnique::ms),
-                     beyond_front(priced, all, &PricedTechnique::model_ms)});
+}
+
+void append(const std::vector<Pick>& more, std::vector<Pick>& picks) {
+  picks.insert(picks.end(), more.begin(), more.end());
+}
+
+std::vector<std::vector<const View*>> flights_of(const std::vector<View>& views) {
+  std::vector<std::vector<const View*>> flights;
+  for (const View& view : views) {
+    const auto known = std::find_if(flights.begin(), flights.end(), [&](const auto& flight) {
+      return flight.front()->flight == view.flight;
+    });
+    if (known == flights.end()) {
+      flights.push_back({&view});
+    } else {
+      known->push_back(&view);
+    }
   }
-  return picks;
+  return flights;
+}
+
+void print_summary(const FlightPicks& all) {
+  const auto percent = [&](int count) { return 100.0 * count / std::max(all.techniques, 1); };
+  const Hits frames(all.of_frames);
+  print_line(
+      fmt::format("\nwithin 10 % of the front of measured misclassified pixels: {}\n"
+                  "of all techniques: {:.0f} % by measured times, {:.0f} % by the model's\n"
+                  "requests met within 10 %: {}",
+                  frames.front(), percent(all.on_front), percent(all.on_front_by_model), frames.requests()));
+  if (all.first_kept.empty()) return;
+  const std::pair<const char*, const std::vector<Pick>*> ways[] = {
+      {"the first frame's pick", &all.first_kept},
+      {"the hardest frame's pick", &all.hardest_kept},
+      {"each frame's pick", &all.renewed}};
+  for (const auto& [name, picks] : ways) {
+    const Hits hits(*picks);
+    print_line(
+        fmt::format("over whole flights, {}: {}\n    requests met: {}", name, hits.front(), hits.requests()));
+  }
 }
 
 }  // namespace
 
-std::vector<View> views_of(const std::vector<report::Row>& rows) {
-  std::map<std::string, std::size_t> known;
-  std::vector<View> views;
-  for (const report::Row& row : rows) {
-    if (row.technique.filter.starts_with(kIrregular)) continue;  // no model predicts it: it reads no map
-    if (row.technique.is_given()) continue;                      // planned by others
-    if (!row.times.known()) continue;                            // of a frame that was not timed
-    // Rows do not hold what the files of a path and of shadow proxies do.
-    if (!row.camera.empty() || !row.edits.empty()) continue;
-    const std::string name =
-        fmt::format("{} {}/{} {} {:g}/{:g} {}x{}", row.scene, row.frame + 1, row.frames, row.light,
-                    row.light_elevation_deg, row.light_azimuth_deg, row.width, row.height);
-    const auto [found, is_new] = known.try_emplace(name, views.size());
-    if (is_new) views.push_back({name, {}});
-    views[found->second].rows.push_back(row);
-  }
-  return views;
-}
-
-Replanned::Replanned(const View& view)
-    : name_(view.name),
-      scene_(view.rows.front().scene, light_of(view.rows.front())),
-      camera_(scene_.camera(view.rows.front().frame, view.rows.front().frames, view.rows.front().width,
-                            view.rows.front().height)),
-      shadow_(trace::seen_shadow(trace::Tracer(scene_.scene()), camera_, scene_.light())) {}
-
-report::Observation Replanned::observe(const report::Row& row) const {
-  const SweepEntry entry = sweep_entry(row.technique);
-  const ShadowPlan plan = make_plan(camera_, scene_.light(), scene_.bounds(), entry.plan);
-  report::Observation o;
-  o.view = name_;
-  o.filter = row.technique.filter;
-  o.work = planned_work(plan, scene_.bounds(), scene_.work());
-  o.megapixels = static_cast<double>(row.width) * row.height / kMega;
-  o.bytes_per_texel = render::bytes_per_texel(entry.filter);
-  o.frame_ms = row.times.plan_ns.median / kMega;
-  o.depth_ms = row.times.depth_ms.median;
-  o.prefilter_ms = row.times.prefilter_ms.median;
-  o.lookup_ms = row.times.shade_ms.median;
-  o.kernel_texels = averaged_texels(entry.filter);
-  o.expected = expected_error(plan, shadow_.picture(), o.kernel_texels).share();
-  o.wrong = wrong_pixels(row);
-  return o;
-}
-
-TechniqueChoice Replanned::choose(const View& view, const Budget& budget, const CostModel& costs) const {
-  std::vector<const Warp*> warps;
-  std::vector<SplitScheme> splits;
-  std::vector<int> cascades, sizes;
-  const auto once = [](auto& list, const auto& value) {
-    if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
-  };
-  for (const report::Row& row : view.rows) {
-    const SweepEntry entry = sweep_entry(row.technique);
-    if (entry.plan.fit != Fit::tight || entry.plan.split.partition != Partition::view_depth ||
-        entry.plan.warp.warp == nullptr || !entry.plan.warp.shape->affine)
-      throw std::runtime_error(row.technique.name() +
-                               ": the planner chooses among named warps with linear texels, split by depth");
-    once(warps, entry.plan.warp.warp);
-    once(splits, entry.plan.split.scheme);
-    once(cascades, entry.plan.cascades);
-    once(sizes, entry.plan.resolution.max_size);
-  }
-  if (splits.size() > 1) throw std::runtime_error(view.name + ": more than one kind of split");
-  return choose_technique(camera_, shadow_.picture(), scene_.light(), scene_.bounds(), scene_.work(),
-                          {warps, splits, cascades, sizes}, budget, costs,
-                          sweep_entry(view.rows.front().technique).plan);
-}
-
 int check_planner(const report::StoredCostModel& model, const std::vector<report::Row>& rows, bool json) {
-  int picks = 0, hits = 0, hits_by_model = 0;
-  nlohmann::json list = nlohmann::json::array();
-  if (!json)
-    print_line(
-        "| view | request | pick | ms, by the model | ms | misclassified pixels, expected | misclassified "
-        "pixels | beyond the front | beyond it by the model's ms |\n|--|--|--|--:|--:|--:|--:|--:|--:|");
-  for (const View& view : views_of(rows)) {
-    for (const Pick& p : picks_of(view, model)) {
-      const auto& [ms, model_ms, error] = p.priced;
-      ++picks;
-      hits += p.beyond <= kHit ? 1 : 0;
-      hits_by_model += p.beyond_by_model <= kHit ? 1 : 0;
-      if (json) {
-        list.push_back({{"view", view.name},
-                        {"asked", asked_text(p.budget)},
-                        {"pick", p.technique},
-                        {"predicted_ms", model_ms},
-                        {"ms", ms},
-                        {"expected_wrong", p.expected},
-                        {"wrong", error},
-                        {"beyond_front", p.beyond},
-                        {"beyond_front_by_model", p.beyond_by_model}});
-      } else {
-        print_line(fmt::format("| {} | {} | {} | {:.1f} | {:.1f} | {:.2f} % | {:.2f} % | {:.2f} | {:.2f} |",
-                               view.name, asked_text(p.budget), p.technique, model_ms, ms, 100.0 * p.expected,
-                               100.0 * error, p.beyond, p.beyond_by_model));
-      }
-    }
+  FlightPicks all;
+  if (!json) print_title("view", "pick");
+  const std::vector<View> views = views_of(rows);
+  for (const std::vector<const View*>& frames : flights_of(views)) {
+    const FlightPicks flight = picks_of(frames, model);
+    if (!json)
+      for (const Pick& pick : flight.of_frames) print(pick, pick.technique);
+    append(flight.of_frames, all.of_frames);
+    append(flight.first_kept, all.first_kept);
+    append(flight.hardest_kept, all.hardest_kept);
+    append(flight.renewed, all.renewed);
+    all.techniques += flight.techniques;
+    all.on_front += flight.on_front;
+    all.on_front_by_model += flight.on_front_by_model;
   }
   if (json) {
-    print_line(nlohmann::json{{"picks", list}}.dump());
-  } else {
-    print_line(
-        fmt::format("\nwithin 10 % of the front of measured misclassified pixels: {} of {} picks by measured "
-                    "times, {} by "
-                    "the model's",
-                    hits, picks, hits_by_model));
+    print_line(nlohmann::json{{"picks", json_of(all.of_frames)},
+                              {"flights_by_first_frame", json_of(all.first_kept)},
+                              {"flights_by_hardest_frame", json_of(all.hardest_kept)},
+                              {"flights_by_each_frame", json_of(all.renewed)}}
+                   .dump());
+    return 0;
   }
+  if (!all.first_kept.empty()) print_flights(all);
+  print_summary(all);
   return 0;
 }
 

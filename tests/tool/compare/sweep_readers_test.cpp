@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "calibrate/planner_check.hpp"
+#include "calibrate/replanned.hpp"
 #include "small_sweep.hpp"
 
 namespace gnomon::test {
