@@ -18,8 +18,11 @@ struct Observation {
   double megapixels = 0.0, bytes_per_texel = 4.0;  ///< of the frame; of everything that is kept
   double frame_ms = 0.0, depth_ms = 0.0, prefilter_ms = 0.0, lookup_ms = 0.0;  ///< measured, milliseconds
   double kernel_texels = 0.0;                                                  ///< FilterCost::kernel_texels
+  /// The filter takes comparisons of depths, or averages them over its kernel: what expected_error counts.
+  bool compares = true;
   double expected = 0.0;  ///< share of the pixels that this kernel misclassifies, predicted: expected_error
   double wrong = 0.0;     ///< share of the pixels on the wrong side of one half, measured
+  double pixels = 0.0;    ///< that `wrong` is a share of: those that the light could reach
 };
 
 /// A CostModel that owns its names.
@@ -39,9 +42,9 @@ struct StoredCostModel {
 };
 
 /// Least squares of relative errors, no cost below zero. error_power is the slope of log wrong over log
-/// expected within views and filters. It is one for all filters, as bias and relief, which expected_error
-/// does not know, are common to them. A filter's error_ratio is its mean over the views. Throws ReportError
-/// for fewer than eight observations.
+/// expected within views and filters. It is one for all filters that compare, as bias and relief, which
+/// expected_error does not know, are common to them. Others leak as well, and have one of their own. A
+/// filter's error_ratio is its mean over the views. Throws ReportError for fewer than eight observations.
 [[nodiscard]] StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine);
 
 /// The time of a frame's shadows by the model, milliseconds; infinite for a filter that it does not know.

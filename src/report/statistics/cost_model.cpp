@@ -40,19 +40,20 @@ struct Part {
 };
 
 /// How errors depend on those expected and on the filter: log wrong = view + filter + power * log expected.
-/// Views whose errors are others, such as leaks, have levels of their own, with a mean of 0.
+/// Views whose errors are others, such as leaks, have levels of their own, with a mean of 0. Filters that
+/// compare have one power, and the others, whose leaks no finer texel stops, another.
 class ErrorLaw {
  public:
   explicit ErrorLaw(std::span<const Observation> observations) {
     for (const Observation& o : observations) {
       // Counts scatter by their root, and the law by a fifth.
       constexpr double kScatter = 0.2 * 0.2;
-      const double count = o.wrong * o.megapixels * 1e6;
+      const double count = o.wrong * o.pixels;
       if (count > 0.0 && o.expected > 0.0)
-        points_.push_back(
-            {o.view, o.filter, std::log(o.expected), std::log(o.wrong), 1.0 / (1.0 / count + kScatter)});
+        points_.push_back({o.view, o.filter, o.compares, std::log(o.expected), std::log(o.wrong),
+                           1.0 / (1.0 / count + kScatter)});
     }
-    fit_power();
+    for (const bool compares : {false, true}) power_[compares] = fitted_power(compares);
     // Levels of filters and views, by turns: each the mean of what the other leaves.
     constexpr int kRounds = 50;
     for (int round = 0; round < kRounds; ++round) {
@@ -62,27 +63,29 @@ class ErrorLaw {
     }
   }
 
-  void tell(const std::string& filter, FilterCost& cost) const {
+  void tell(const std::string& filter, bool compares, FilterCost& cost) const {
     const auto found = filters_.find(filter);
     if (found == filters_.end()) return;
-    cost.error_power = power_;
+    cost.error_power = power_.at(compares);
     cost.error_ratio = std::exp(found->second);
   }
 
  private:
   struct Point {
     std::string view, filter;
+    bool compares;
     double log_expected, log_wrong, weight;
   };
   using Levels = std::map<std::string, double>;
 
   /// The slope within views and filters, for they differ in level.
-  void fit_power() {
+  [[nodiscard]] double fitted_power(bool compares) const {
     struct Mean {
       double log_expected = 0.0, log_wrong = 0.0, weight = 0.0;
     };
     std::map<std::pair<std::string, std::string>, Mean> means;
     for (const Point& p : points_) {
+      if (p.compares != compares) continue;
       Mean& mean = means[{p.view, p.filter}];
       mean.log_expected += p.weight * p.log_expected;
       mean.log_wrong += p.weight * p.log_wrong;
@@ -90,12 +93,13 @@ class ErrorLaw {
     }
     double xy = 0.0, xx = 0.0;
     for (const Point& p : points_) {
+      if (p.compares != compares) continue;
       const Mean& mean = means.at({p.view, p.filter});
       const double x = p.log_expected - mean.log_expected / mean.weight;
       xy += p.weight * x * (p.log_wrong - mean.log_wrong / mean.weight);
       xx += p.weight * x * x;
     }
-    power_ = xx > 0.0 ? std::max(xy / xx, 0.0) : 0.0;
+    return xx > 0.0 ? std::max(xy / xx, 0.0) : 0.0;
   }
 
   void average(std::string Point::*key, Levels& levels, const Levels& others) {
@@ -104,7 +108,8 @@ class ErrorLaw {
     for (const Point& p : points_) {
       const auto other = others.find(p.*other_key);
       auto& [sum, count] = sums[p.*key];
-      sum += p.log_wrong - power_ * p.log_expected - (other == others.end() ? 0.0 : other->second);
+      sum += p.log_wrong - power_.at(p.compares) * p.log_expected -
+             (other == others.end() ? 0.0 : other->second);
       count += 1.0;
     }
     for (const auto& [name, sum] : sums) levels[name] = sum.first / sum.second;
@@ -118,7 +123,7 @@ class ErrorLaw {
 
   std::vector<Point> points_;
   Levels views_, filters_;
-  double power_ = 1.0;
+  std::map<bool, double> power_;  ///< of filters that compare, and of the others
 };
 
 }  // namespace
@@ -200,7 +205,7 @@ StoredCostModel fit_costs(std::span<const Observation> observations, std::string
     cost.lookup_ms_per_megapixel = looked[0];
     cost.bytes_per_texel = any.at(name)->bytes_per_texel;
     cost.kernel_texels = any.at(name)->kernel_texels;
-    law.tell(name, cost);
+    law.tell(name, any.at(name)->compares, cost);
     model.filters.push_back({name, cost});
     model.prefilter_error += relative_error(parts.first.rows, parts.first.values, stored) / count;
     model.lookup_error += relative_error(parts.second.rows, parts.second.values, looked) / count;

@@ -29,21 +29,28 @@ struct CalibrateRequest {
   bool json = false;
 };
 
-/// What every frame of a folder's rows is measured with first where there is none: small, but with all that
-/// costs may depend on.
-CompareRequest own_sweep(const CalibrateRequest& request) {
-  CompareRequest sweep;
-  sweep.scenes = {"builtin:city", "builtin:fence", "builtin:hangar", "builtin:terrain", "builtin:trees"};
-  sweep.warps = read_warps("--warps", {"none", "optimal"});
-  sweep.filters = read_filters("--filters", {"hard", "pcf", "pcss", "vsm", "evsm4", "msm"});
-  sweep.cascades = {1, 3};
-  sweep.map_sizes = {512, 1024};
-  sweep.frames = 1;
-  sweep.rounds = 3;
-  sweep.width = 320;
-  sweep.height = 180;
-  sweep.out = request.out;
-  sweep.context = request.context;
+/// Measured where no folder is given: small, but with all that costs and errors may depend on.
+std::vector<CompareRequest> own_sweep(const CalibrateRequest& request) {
+  CompareRequest sun;
+  sun.scenes = {"builtin:city", "builtin:fence", "builtin:hangar", "builtin:terrain", "builtin:trees"};
+  sun.warps = read_warps("--warps", {"none", "optimal"});
+  sun.filters = read_filters("--filters", {"hard", "pcf", "pcss", "vsm", "evsm4", "msm"});
+  sun.cascades = {1, 3};
+  sun.map_sizes = {256, 1024};
+  sun.frames = 1;
+  sun.rounds = 3;
+  sun.width = 320;
+  sun.height = 180;
+  sun.out = request.out;
+  sun.context = request.context;
+  CompareRequest local = sun;
+  local.filters = read_filters("--filters", {"hard", "pcf"});
+  local.cascades = {1};
+  std::vector<CompareRequest> sweep{sun};
+  for (const LightKind kind : {LightKind::spot, LightKind::point}) {
+    sweep.push_back(local);
+    sweep.back().light.kind = kind;
+  }
   return sweep;
 }
 
@@ -98,7 +105,7 @@ int run_calibrate(const CalibrateRequest& request, bool json) {
     if (std::filesystem::exists(std::filesystem::path(request.out) / report::kRowsFile))
       throw std::runtime_error(request.out + ": was measured already: gnomon calibrate " + request.out +
                                " fits to that; another --out measures again");
-    (void)compare(std::vector{own_sweep(request)});
+    (void)compare(own_sweep(request));
     folders.push_back(request.out);
   }
   std::vector<report::Row> rows;

@@ -40,6 +40,22 @@ double averaged_texels(const render::FilterSettings& filter) noexcept {
   return averages && filter.unit == render::KernelUnit::texels ? filter.radius + 0.5 : 0.0;
 }
 
+/// It takes comparisons of depths as they are, or averages them.
+bool compares(const render::FilterSettings& filter) noexcept {
+  const render::FilterInfo& info = filter.filter->info;
+  return info.reads == render::MapRead::depth && info.penumbra_radius_world == nullptr;
+}
+
+/// Texels may be finer than the frame's pixels, and shadows narrower: a small picture shows too few of their
+/// errors.
+Camera finer(Camera camera) noexcept {
+  constexpr int kFiner = 2, kFineEnough = 1280;
+  if (camera.width * kFiner > kFineEnough) return camera;
+  camera.width *= kFiner;
+  camera.height *= kFiner;
+  return camera;
+}
+
 }  // namespace
 
 std::vector<View> views_of(const std::vector<report::Row>& rows) {
@@ -70,7 +86,7 @@ Replanned::Replanned(const View& view)
       scene_(lit_scene(view.rows.front())),
       camera_(scene_.camera(view.rows.front().frame, view.rows.front().frames, view.rows.front().width,
                             view.rows.front().height)),
-      shadow_(trace::seen_shadow(trace::Tracer(scene_.scene()), camera_, scene_.light())) {}
+      shadow_(trace::seen_shadow(trace::Tracer(scene_.scene()), finer(camera_), scene_.light())) {}
 
 report::Observation Replanned::observe(const report::Row& row) const {
   const SweepEntry entry = sweep_entry(row.technique);
@@ -86,8 +102,10 @@ report::Observation Replanned::observe(const report::Row& row) const {
   o.prefilter_ms = row.times.prefilter_ms.median;
   o.lookup_ms = row.times.shade_ms.median;
   o.kernel_texels = averaged_texels(entry.filter);
+  o.compares = compares(entry.filter);
   o.expected = expected_error(plan, shadow_.picture(), o.kernel_texels).share();
   o.wrong = wrong_pixels(row);
+  o.pixels = static_cast<double>(row.errors.pixels);
   return o;
 }
 
