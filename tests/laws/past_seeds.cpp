@@ -1,4 +1,5 @@
-// Do the laws hold under the seeds under which they failed once? A table, and each row a run of the laws that it names.
+// Do the laws hold under the seeds under which they failed once? A table, and each row a run of the laws that
+// it names.
 #include <gtest/gtest.h>
 
 #include <cstdio>

@@ -434,8 +434,10 @@ test('a stable grid is turned about the sun, holds what is in view, and stays at
   const csm = new GnomonCSM(gnomon, data);
   csm.update();
   const before = csm.plan.maps.map(({ clipFromWorld }) => [...clipFromWorld]);
+  const sizes = new Set();  // of the first slice
   for (let frame = 0; frame < 20; ++frame) {
     const eye = cameraOf(gnomon, view, [1920, 1080], 250);
+    sizes.add(csm.plan.maps[0].clipFromWorld[0]);
     csm.plan.maps.forEach((map, k) => {
       const clip = new THREE.Matrix4().fromArray(map.clipFromWorld);
       // A step up in the world is no step along one axis of the texels.
@@ -453,13 +455,15 @@ test('a stable grid is turned about the sun, holds what is in view, and stays at
       // Whole texels, or another size of its slice.
       const moved = [12, 13].map((i) => ((map.clipFromWorld[i] - before[k][i]) * map.width) / 2);
       if (map.clipFromWorld[0] === before[k][0]) for (const texels of moved) assert.ok(Math.abs(texels - Math.round(texels)) < 1e-6, `${moved}`);
-      else assert.ok(frame > 0 && k > 0);
+      else assert.ok(frame > 0);
     });
     view.position.add(new THREE.Vector3(0.31, 0.05, -1.3));
     view.rotateY(0.05);
     view.updateMatrixWorld();
     csm.update();
   }
+  // The farthest receiver comes half an octave nearer at most once on the way.
+  assert.ok(sizes.size <= 2);
   csm.remove();
   csm.dispose();
 });
