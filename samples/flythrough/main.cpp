@@ -14,6 +14,7 @@
 #include <gnomon/scene/default_light.hpp>
 #include <gnomon/scene/image.hpp>
 #include <gnomon/scene/load.hpp>
+#include <gnomon/scene/shadow_boxes.hpp>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ constexpr int kFrames = 4, kWidth = 640, kHeight = 360;
 struct World {
   gnomon::Scene scene;
   gnomon::Light light;
-  std::vector<gnomon::Box> boxes;
+  gnomon::ShadowBoxes boxes;
   gnomon::CameraPath path;
 };
 
@@ -37,7 +38,7 @@ World load_world(const std::string& name) {
   world.scene = gnomon::load_scene(name);
   world.light = gnomon::default_light({}, world.scene.bounds_world);
   world.path = gnomon::default_path(world.scene);
-  for (const gnomon::Instance& instance : world.scene.instances) world.boxes.push_back(instance.bounds_world);
+  world.boxes = gnomon::ShadowBoxes(world.scene);
   return world;
 }
 
@@ -90,8 +91,7 @@ int fly(const std::string& scene_name, const fs::path& folder) {
     const gnomon::Camera camera = world.path.at((frame + 0.5) / kFrames, kWidth, kHeight);
 
     // 1. Plan: pure arithmetic, some 100 microseconds, no OpenGL and no heap.
-    const gnomon::ShadowPlan plan =
-        gnomon::make_plan(camera, world.light, {world.boxes, world.boxes}, options);
+    const gnomon::ShadowPlan plan = gnomon::make_plan(camera, world.light, world.boxes.bounds(), options);
     if (plan.status == gnomon::PlanStatus::invalid_input) {
       std::fprintf(stderr, "flythrough_sample: the plan refuses %s\n",
                    std::string(plan.invalid_field).c_str());

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <span>
 
+#include "bounds_of.hpp"
+
 namespace gnomon::detail {
 namespace {
 
@@ -38,13 +40,8 @@ class Halving {
 
  private:
   [[nodiscard]] Box box_of(std::uint32_t first_index) const {
-    const glm::dmat4& world_from_object = scene_.instances[instance_].world_from_object;
-    Box box;
-    for (std::size_t i = first_index; i < std::size_t{first_index} + 3; ++i) {
-      const glm::dvec4 corner(glm::dvec3(scene_.positions[scene_.indices[i]]), 1.0);
-      box.extend(glm::dvec3(world_from_object * corner));
-    }
-    return box;
+    return transformed_bounds(scene_, Primitive{first_index, 3, 0, {}},
+                              scene_.instances[instance_].world_from_object);
   }
 
   void halve(std::span<Triangle> triangles) {

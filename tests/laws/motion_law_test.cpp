@@ -290,8 +290,11 @@ WarpChoice follow(const WarpInput& input) noexcept {
   const bool keeps = input.start->use == StartUse::keep;
   followed.kept += keeps ? 1 : 0;
   // A result that is kept is not measured again: it holds for a frame, while the body still fills its map.
-  if (keeps) followed.kept_over_none += over > 1.0 + kRounding ? 1 : 0;
-  if (!keeps) followed.over_none = std::max(followed.over_none, over);
+  if (keeps) {
+    followed.kept_over_none += over > 1.0 + kRounding ? 1 : 0;
+  } else {
+    followed.over_none = std::max(followed.over_none, over);
+  }
   return choice;
 }
 const Warp kFollow{"follow", "compares searches", follow, true, true};

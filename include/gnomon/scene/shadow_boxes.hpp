@@ -9,8 +9,8 @@
 
 namespace gnomon {
 
-/// The boxes of a scene's instances, as plans take them. Receivers with large boxes have those of parts of
-/// their triangles in their place: less air, and texels where there are surfaces.
+/// The boxes of a scene's instances, as plans take them. A receiver of many triangles has the boxes of its
+/// parts in place of its own: less air, and texels where there are surfaces.
 class ShadowBoxes {
  public:
   ShadowBoxes() = default;
@@ -18,7 +18,7 @@ class ShadowBoxes {
   explicit ShadowBoxes(const Scene& scene) { add(scene); }
   /// Adds the instances of one more scene, after all others.
   void add(const Scene& scene);
-  /// Places one instance elsewhere; bounds() follow in place. It has no parts from then on. `instance`: its
+  /// Places one instance elsewhere, as one box from then on; bounds() follow in place. `instance`: its
   /// number, below all().size().
   void place(std::size_t instance, const Box& bounds_world) noexcept;
   /// The boxes of all instances.

@@ -9,6 +9,7 @@
 
 #include "geometry/box_walk.hpp"
 #include "geometry/vector.hpp"
+#include "lanes/elementary.hpp"
 
 namespace gnomon {
 namespace {
@@ -283,6 +284,26 @@ CasterReach casters_inside(std::span<const Plane> planes, const Boxes& casters, 
   BoxWalk walk(planes, casters, origin, query);
   walk_down(walk, casters);
   return query.answer();
+}
+
+double depth_in_reach(const Camera& camera, const Boxes& boxes, double aside) noexcept {
+  const CasterReach held = casters_inside({}, boxes, camera.position, {0.0, 0.0, 1.0});
+  const Box& box = held.bounds;
+  const glm::dvec3 corner(max_of(-box.min.x, box.max.x), max_of(-box.min.y, box.max.y),
+                          max_of(-box.min.z, box.max.z));
+  const double farthest = max_of(camera.near_depth, held.any ? glm::length(corner) + aside : 0.0);
+  constexpr double kStepsPerOctave = 2.0;
+  const auto next_step = [](double ratio) {
+    return elementary::exp2(std::ceil(elementary::log2(ratio) * kStepsPerOctave) / kStepsPerOctave);
+  };
+  // Of the near plane's depth, of the image's height: a slice thinner than this is of no use to anyone.
+  constexpr double kThinnest = 1.0 / 1024.0;
+  const double n = camera.near_depth, height = camera.top - camera.bottom;
+  const double reach = camera.orthographic
+                           ? n + height * next_step(max_of((farthest - n) / height, kThinnest))
+                           : n * next_step(max_of(farthest / n, 1.0 + kThinnest));
+  // The logarithm's rounding must cut nothing off; and a ratio that overflows has no next step.
+  return std::isfinite(reach) ? max_of(reach, farthest) : farthest;
 }
 
 bool in_some_box(const Boxes& boxes, const glm::dvec3& point_world) noexcept {

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "gnomon/bounds.hpp"
+#include "gnomon/camera.hpp"
 #include "gnomon/extend/body.hpp"
 
 namespace gnomon {

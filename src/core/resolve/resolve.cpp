@@ -51,14 +51,14 @@ void share(std::size_t views, Resolved& r) noexcept {
   if (split.scheme == SplitScheme::optimal) split.scheme = SplitScheme::logarithmic;
 }
 
-/// Splits that no motion of the camera moves.
+/// Splits that do not follow what is in view.
 void fix(SplitOptions& split) noexcept {
   if (split.range == SplitRange::receivers) split.range = SplitRange::automatic;
   if (split.scheme == SplitScheme::automatic || split.scheme == SplitScheme::optimal)
     split.scheme = SplitScheme::practical;
 }
 
-/// Splits that what is in view does not move.
+/// The same for a grid that stays, of schemes that can.
 void steady(SplitOptions& split) noexcept {
   if (split.scheme == SplitScheme::automatic) split.scheme = SplitScheme::practical;
   if (split.scheme == SplitScheme::optimal) split.scheme = SplitScheme::logarithmic;

@@ -123,7 +123,7 @@ class ErrorLaw {
 
   std::vector<Point> points_;
   Levels views_, filters_;
-  std::map<bool, double> power_;  ///< of filters that compare, and of the others
+  std::array<double, 2> power_{};  ///< of filters that do not compare, and of those that do
 };
 
 }  // namespace

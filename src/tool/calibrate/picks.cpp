@@ -93,7 +93,7 @@ class PickedFrame {
 };
 
 /// One request along a flight.
-struct Asked {
+struct FlightRequest {
   Budget request;
   const report::Technique *first, *hardest, *now;  ///< picked; nullptr: nothing to choose yet
   double hardness;                                 ///< of the hardest
@@ -111,10 +111,10 @@ struct Asked {
 
 }  // namespace
 
-Judged judged(const PricedTechnique& pick, std::span<const PricedTechnique> all,
-              const Budget& request) noexcept {
-  Judged result{pick, beyond_front(pick, all, &PricedTechnique::ms),
-                beyond_front(pick, all, &PricedTechnique::model_ms)};
+Score score_of(const PricedTechnique& pick, std::span<const PricedTechnique> all,
+               const Budget& request) noexcept {
+  Score result{pick, beyond_front(pick, all, &PricedTechnique::ms),
+               beyond_front(pick, all, &PricedTechnique::model_ms)};
   // What is limited, and what should be least.
   const bool by_time = request.milliseconds > 0.0;
   const auto limited = by_time ? &PricedTechnique::ms : &PricedTechnique::error;
@@ -153,7 +153,7 @@ FlightPicks picks_of(const std::vector<const View*>& frames, const report::Store
     for (std::size_t i = 0; i < mean.size(); ++i)
       add(measured(frame->rows[row_of(*frame, first.rows[i].technique)]), weight, mean[i]);
   }
-  std::vector<Asked> asked;
+  std::vector<FlightRequest> asked;
   for (const Budget& request : requests_between(mean))
     asked.push_back({request, nullptr, nullptr, nullptr, 0.0, {}});
 
@@ -163,31 +163,32 @@ FlightPicks picks_of(const std::vector<const View*>& frames, const report::Store
     for (std::size_t i = 0; i < mean.size(); ++i)
       mean[i].model_ms += weight * picked.priced()[row_of(*frame, first.rows[i].technique)].model_ms;
     for (const PricedTechnique& one : picked.priced()) {
-      const Judged alone = judged(one, picked.priced(), asked.front().request);
+      const Score alone = score_of(one, picked.priced(), asked.front().request);
       ++picks.techniques;
       picks.on_front += alone.beyond_front <= kHit ? 1 : 0;
       picks.on_front_by_model += alone.beyond_front_by_model <= kHit ? 1 : 0;
     }
-    for (Asked& a : asked) {
+    for (FlightRequest& a : asked) {
       if (const auto pick = picked.pick(a.request)) {
         a.add(frame->rows[pick->row].technique, *pick);
         picks.of_frames.push_back({frame->name, a.request, a.now->name(), pick->expected,
-                                   judged(picked.priced()[pick->row], picked.priced(), a.request)});
+                                   score_of(picked.priced()[pick->row], picked.priced(), a.request)});
       }
       // A frame without maps has nothing to choose: what was picked before stays, and all cost the same.
       add(picked.priced()[a.now == nullptr ? 0 : row_of(*frame, *a.now)], weight, a.renewed);
     }
   }
   if (frames.size() == 1) return picks;
-  for (const Asked& a : asked) {
+  for (const FlightRequest& a : asked) {
     if (a.first == nullptr) continue;
     const auto kept = [&](const report::Technique& technique) {
       return Pick{first.flight, a.request, technique.name(), std::nullopt,
-                  judged(mean[row_of(first, technique)], mean, a.request)};
+                  score_of(mean[row_of(first, technique)], mean, a.request)};
     };
     picks.first_kept.push_back(kept(*a.first));
     picks.hardest_kept.push_back(kept(*a.hardest));
-    picks.renewed.push_back({first.flight, a.request, {}, std::nullopt, judged(a.renewed, mean, a.request)});
+    picks.renewed.push_back(
+        {first.flight, a.request, {}, std::nullopt, score_of(a.renewed, mean, a.request)});
   }
   return picks;
 }

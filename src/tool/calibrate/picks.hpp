@@ -19,7 +19,7 @@ struct PricedTechnique {
 };
 
 /// A technique held against all others. Factors of at least 1, which is the best.
-struct Judged {
+struct Score {
   PricedTechnique priced;
   /// By how much both cost and error exceed those of the technique that beats it most, by measured times and
   /// by the model's.
@@ -30,8 +30,8 @@ struct Judged {
   /// larger of both.
   double off_request = 1.0;
 };
-[[nodiscard]] Judged judged(const PricedTechnique& pick, std::span<const PricedTechnique> all,
-                            const Budget& request) noexcept;
+[[nodiscard]] Score score_of(const PricedTechnique& pick, std::span<const PricedTechnique> all,
+                             const Budget& request) noexcept;
 /// What counts as on the front, and as met.
 inline constexpr double kHit = 1.1;
 
@@ -44,7 +44,7 @@ struct Pick {
   Budget request;
   std::string technique;           ///< of a flight: the one that is kept; empty: each frame has its own
   std::optional<double> expected;  ///< by the planner, a share of the pixels; none of a flight
-  Judged judged;
+  Score score;
 };
 
 /// Picks along one flight. The requests lie between the ends of the means over its frames.

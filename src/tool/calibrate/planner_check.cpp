@@ -24,12 +24,12 @@ class Hits {
  public:
   explicit Hits(const std::vector<Pick>& picks) {
     for (const Pick& pick : picks) {
-      const Judged& j = pick.judged;
+      const Score& score = pick.score;
       ++picks_;
-      by_measured_ += j.beyond_front <= kHit ? 1 : 0;
-      by_model_ += j.beyond_front_by_model <= kHit ? 1 : 0;
-      met_ += j.over_request <= kHit ? 1 : 0;
-      log_off_ += std::log(j.off_request);
+      by_measured_ += score.beyond_front <= kHit ? 1 : 0;
+      by_model_ += score.beyond_front_by_model <= kHit ? 1 : 0;
+      met_ += score.over_request <= kHit ? 1 : 0;
+      log_off_ += std::log(score.off_request);
     }
   }
   [[nodiscard]] std::string front() const {
@@ -47,17 +47,17 @@ class Hits {
 };
 
 nlohmann::json json_of(const Pick& pick) {
-  const Judged& j = pick.judged;
+  const Score& score = pick.score;
   nlohmann::json json{{"view", pick.view},
                       {"asked", text_of(pick.request)},
                       {"pick", pick.technique},
-                      {"predicted_ms", j.priced.model_ms},
-                      {"ms", j.priced.ms},
-                      {"wrong", j.priced.error},
-                      {"beyond_front", j.beyond_front},
-                      {"beyond_front_by_model", j.beyond_front_by_model},
-                      {"over_request", j.over_request},
-                      {"off_request", j.off_request}};
+                      {"predicted_ms", score.priced.model_ms},
+                      {"ms", score.priced.ms},
+                      {"wrong", score.priced.error},
+                      {"beyond_front", score.beyond_front},
+                      {"beyond_front_by_model", score.beyond_front_by_model},
+                      {"over_request", score.over_request},
+                      {"off_request", score.off_request}};
   if (pick.expected) json["expected_wrong"] = *pick.expected;
   return json;
 }
@@ -77,12 +77,12 @@ void print_title(const char* view, const char* pick) {
 }
 
 void print(const Pick& pick, const std::string& technique) {
-  const Judged& j = pick.judged;
+  const Score& score = pick.score;
   const std::string expected = pick.expected ? fmt::format("{:.2f} %", 100.0 * *pick.expected) : "";
   print_line(fmt::format("| {} | {} | {} | {:.1f} | {:.1f} | {} | {:.2f} % | {:.2f} | {:.2f} | {:.2f} |",
-                         pick.view, text_of(pick.request), technique, j.priced.model_ms, j.priced.ms,
-                         expected, 100.0 * j.priced.error, j.beyond_front, j.beyond_front_by_model,
-                         j.off_request));
+                         pick.view, text_of(pick.request), technique, score.priced.model_ms, score.priced.ms,
+                         expected, 100.0 * score.priced.error, score.beyond_front,
+                         score.beyond_front_by_model, score.off_request));
 }
 
 void print_flights(const FlightPicks& all) {

@@ -23,11 +23,10 @@ SceneView lit_scene(const report::Row& row) {
     throw std::runtime_error("light '" + row.light + "': wants sun, spot or point");
   SceneView scene(row.scene, placement);
   if (word_end == std::string::npos) return scene;
-  constexpr int kMostLights = 64;  // of gnomon compare --local-lights
   int number = 0, count = 0, read = 0;
   if (std::sscanf(row.light.c_str() + word_end, " %d of %d%n", &number, &count, &read) != 2 ||
       word_end + static_cast<std::size_t>(read) != row.light.size() || number < 1 || number > count ||
-      count > kMostLights)
+      count > kMostLocalLights)
     throw std::runtime_error("light '" + row.light + "': wants the number of a light, as in spot 1 of 8");
   scene.set_light(local_lights(count, scene.scene().bounds_world)[static_cast<std::size_t>(number - 1)]);
   return scene;

@@ -157,7 +157,7 @@ std::vector<Option> scene_options(CompareRequest& request) {
        .target = &request.local_lights,
        .help = "so many spots and points over the scene, each measured alone; behind a split "
                ":budget lets them share their texels (plan_lights)",
-       .range = {{0, 64}},
+       .range = {{0, kMostLocalLights}},
        .excludes = {"--light", "--light-elevation-deg", "--light-azimuth-deg", "--sun", "--capture"}});
   for (Option& option : camera_options(request.camera)) options.push_back(std::move(option));
   for (Option& option : edit_options(request.edits)) options.push_back(std::move(option));

@@ -16,6 +16,9 @@
 
 namespace gnomon::tool {
 
+/// Most lights of --local-lights.
+inline constexpr int kMostLocalLights = 64;
+
 /// The product of techniques, and what it is measured on. Each list has at least one entry, but `pages`.
 struct SweepRequest : Measuring {
   std::vector<TechniqueFilter> filters = {TechniqueFilter{}};

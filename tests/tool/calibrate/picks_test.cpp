@@ -10,8 +10,8 @@
 namespace gnomon::test {
 namespace {
 
-using tool::Judged;
 using tool::PricedTechnique;
+using tool::Score;
 
 /// By measured times the third is worse than the second, by the model's it is not.
 constexpr PricedTechnique kAll[] = {{1.0, 1.0, 0.08}, {2.0, 6.0, 0.02}, {4.0, 3.0, 0.03}, {8.0, 8.0, 0.01}};
@@ -29,22 +29,22 @@ Budget at_error(double error) {
 
 TEST(Picks, are_beyond_the_front_where_another_is_better_in_both) {
   for (const std::size_t on_front : {0, 1, 3})
-    EXPECT_EQ(tool::judged(kAll[on_front], kAll, within(8.0)).beyond_front, 1.0);
-  const Judged third = tool::judged(kAll[2], kAll, within(8.0));
+    EXPECT_EQ(tool::score_of(kAll[on_front], kAll, within(8.0)).beyond_front, 1.0);
+  const Score third = tool::score_of(kAll[2], kAll, within(8.0));
   EXPECT_DOUBLE_EQ(third.beyond_front, 1.5) << "half as much again in error, twice in time";
   EXPECT_EQ(third.beyond_front_by_model, 1.0);
 }
 
 TEST(Picks, are_off_a_request_that_they_miss_or_that_another_meets_better) {
-  const Judged too_long = tool::judged(kAll[3], kAll, within(5.0));
+  const Score too_long = tool::score_of(kAll[3], kAll, within(5.0));
   EXPECT_DOUBLE_EQ(too_long.over_request, 1.6);
   EXPECT_DOUBLE_EQ(too_long.off_request, 1.6);
-  const Judged wasteful = tool::judged(kAll[0], kAll, within(5.0));
+  const Score wasteful = tool::score_of(kAll[0], kAll, within(5.0));
   EXPECT_EQ(wasteful.over_request, 1.0);
   EXPECT_DOUBLE_EQ(wasteful.off_request, 4.0) << "the second has a quarter of the error in time";
-  EXPECT_EQ(tool::judged(kAll[1], kAll, within(5.0)).off_request, 1.0);
-  EXPECT_DOUBLE_EQ(tool::judged(kAll[0], kAll, at_error(0.04)).off_request, 2.0);
-  EXPECT_DOUBLE_EQ(tool::judged(kAll[3], kAll, at_error(0.04)).off_request, 4.0);
+  EXPECT_EQ(tool::score_of(kAll[1], kAll, within(5.0)).off_request, 1.0);
+  EXPECT_DOUBLE_EQ(tool::score_of(kAll[0], kAll, at_error(0.04)).off_request, 2.0);
+  EXPECT_DOUBLE_EQ(tool::score_of(kAll[3], kAll, at_error(0.04)).off_request, 4.0);
 }
 
 TEST(Picks, requests_lie_between_the_ends_of_what_was_measured) {
@@ -91,11 +91,11 @@ TEST(Picks, of_a_flight_are_held_against_the_means_of_its_frames) {
     differ += first.technique != second.technique ? 1 : 0;
     EXPECT_TRUE(picks.renewed[i].technique.empty());
     // Of the same technique, the second frame takes three times as long.
-    EXPECT_DOUBLE_EQ(picks.first_kept[i].judged.priced.ms, 2.0 * first.judged.priced.ms);
-    EXPECT_DOUBLE_EQ(picks.renewed[i].judged.priced.error,
-                     0.5 * (first.judged.priced.error + second.judged.priced.error));
-    EXPECT_DOUBLE_EQ(picks.renewed[i].judged.priced.model_ms,
-                     0.5 * (first.judged.priced.model_ms + second.judged.priced.model_ms));
+    EXPECT_DOUBLE_EQ(picks.first_kept[i].score.priced.ms, 2.0 * first.score.priced.ms);
+    EXPECT_DOUBLE_EQ(picks.renewed[i].score.priced.error,
+                     0.5 * (first.score.priced.error + second.score.priced.error));
+    EXPECT_DOUBLE_EQ(picks.renewed[i].score.priced.model_ms,
+                     0.5 * (first.score.priced.model_ms + second.score.priced.model_ms));
   }
   EXPECT_GT(differ, 0) << "else the first frame's pick is any frame's";
   const tool::FlightPicks alone = tool::picks_of({&views[0]}, some_model());
