@@ -216,7 +216,7 @@ TEST(Expected, agrees_as_far_as_ratios_and_ranks_do) {
   EXPECT_NEAR(alike.attainable, 1.0, 1e-12) << "counts that are far apart";
   rows[0].expected_wrong = 1.0;      // the least of its view is expected to be the worst
   rows[5].technique.filter = "pcf";  // another filter
-  rows[6].expected_wrong.reset();    // pages
+  rows[6].expected_wrong.reset();    // masks of others
   rows[7].errors.false_lit = rows[7].errors.false_shadow = 1e-5;  // too few pixels
   const ExpectedCheck off = check_expected(rows);
   EXPECT_EQ(off.rows, 5u);

@@ -128,8 +128,8 @@ struct Row {
   int pixel_samples = kPixelSamples;      ///< rays of each pixel for `pixel`; 0: not measured
   std::optional<PixelErrors> pixel = {};  ///< against whole pixels; rows of earlier versions have none
   PixelAliasing aliasing;                 ///< over the pixels of the frame
-  /// Misclassified share of the pixels compared that the plan's maps were expected to have under hard
-  /// comparison, without drawing them (expected_error); none of pages.
+  /// Misclassified share of the pixels compared that the plan's maps or pages were expected to have under
+  /// hard comparison, without drawing them (expected_error). Rows of pages of earlier versions have none.
   std::optional<double> expected_wrong = {};
   Costs costs;                    ///< of the frame
   Times times;                    ///< over all rounds

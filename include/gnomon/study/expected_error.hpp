@@ -6,6 +6,7 @@
 #include <span>
 
 #include "gnomon/camera.hpp"
+#include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 
 namespace gnomon {
@@ -60,6 +61,9 @@ inline constexpr double kMaxKernelTexels = 33.0;
 /// pixels, and averages over less than a pixel look too good. So they count by half, and one texel by the
 /// other half.
 [[nodiscard]] ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow,
+                                           double kernel_texels = 0.0) noexcept;
+/// The same in the pages that serve the points of the picture. A point without a page is drawn as lit.
+[[nodiscard]] ExpectedError expected_error(const PagePlan& plan, const ShadowPicture& shadow,
                                            double kernel_texels = 0.0) noexcept;
 
 /// Points of the surfaces along the shadow's edges. A pixel is on an edge where one of its four neighbours

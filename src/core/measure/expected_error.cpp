@@ -257,10 +257,11 @@ double lit_over(const Pixels& pixels, const SurfacePlane& plane, const TexelsOnP
   return weights >= least ? sum / weights : -1.0;
 }
 
-}  // namespace
-
-ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow,
-                             double kernel_texels) noexcept {
+/// `serving`: the map, or the level of pages, whose texels a point at a view depth is compared with; nullptr:
+/// none, and it is drawn as lit.
+template <class Serving>
+ExpectedError expected_over(const ShadowPicture& shadow, const BiasOptions& bias, double kernel_texels,
+                            const Serving& serving) noexcept {
   const Pixels pixels(shadow);
   const double half_side = kernel_texels > 0.0 ? min_of(kernel_texels, kMaxKernelTexels) : 0.0;
   double counted = 0.0, known = 0.0, wrong = 0.0;
@@ -270,16 +271,15 @@ ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow
       counted += 1.0;
       const double depth = pixels.depth(x, y), lit = pixels.lit(x, y);
       const glm::dvec3 point = pixels.position(x, y, depth);
-      const int serving = map_serving(plan, point, depth);
-      if (serving < 0) {  // drawn as lit
+      const ShadowMap* const map = serving(point, depth);
+      if (map == nullptr) {
         known += 1.0;
         wrong += 1.0 - lit;
         continue;
       }
       const SurfacePlane plane = plane_at(pixels, x, y);
-      const ShadowMap& map = plan.maps()[static_cast<std::size_t>(serving)];
-      const TexelsOnPlane texels(pixels, map, plane, point, x, y);
-      const double bias_world = pixels.knows_occluders() ? texels.bias_world(plan.bias) : 0.0;
+      const TexelsOnPlane texels(pixels, *map, plane, point, x, y);
+      const double bias_world = pixels.knows_occluders() ? texels.bias_world(bias) : 0.0;
       Pixels::Place place{};
       const bool shown = texels.shown(glm::floor(texels.place()) + 0.5, place);
       const double taken = shown ? lit_between(pixels, plane, x, y, place, bias_world) : -1.0;
@@ -300,6 +300,27 @@ ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow
     }
   }
   return {known > 0.0 ? wrong * (counted / known) : 0.0, counted};
+}
+
+}  // namespace
+
+ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow,
+                             double kernel_texels) noexcept {
+  return expected_over(shadow, plan.bias, kernel_texels,
+                       [&](const glm::dvec3& point, double depth) -> const ShadowMap* {
+                         const int map = map_serving(plan, point, depth);
+                         return map < 0 ? nullptr : &plan.maps()[static_cast<std::size_t>(map)];
+                       });
+}
+
+ExpectedError expected_error(const PagePlan& plan, const ShadowPicture& shadow,
+                             double kernel_texels) noexcept {
+  // A page has the texels of its level.
+  return expected_over(
+      shadow, plan.bias, kernel_texels, [&](const glm::dvec3& point, double) -> const ShadowMap* {
+        const int page = page_serving(plan, point);
+        return page < 0 ? nullptr : &plan.levels[plan.pages[static_cast<std::size_t>(page)].level];
+      });
 }
 
 std::size_t shadow_edge_points(const ShadowPicture& shadow, std::span<glm::dvec3> out) noexcept {

@@ -273,7 +273,7 @@ FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntr
   const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
   set_errors(truth, masks, soft, row);
   row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
-  if (!entry.by_pages()) row.expected_wrong = plan.expected(truth.picture()).share();
+  row.expected_wrong = plan.expected(truth.picture()).share();
   count_costs(stats, plan, entry, row);
   if (entry.irregular()) {
     row.costs.lists = list_lengths(renderer);

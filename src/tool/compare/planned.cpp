@@ -75,7 +75,7 @@ std::vector<float> Planned::aliasing(const FloatImage& mask) const {
 }
 
 ExpectedError Planned::expected(const ShadowPicture& shadow) const noexcept {
-  return by_pages() ? ExpectedError{} : expected_error(maps_, shadow);
+  return by_pages() ? expected_error(pages_->plan(), shadow) : expected_error(maps_, shadow);
 }
 
 Image Planned::heat_map(const FloatImage& mask) const {

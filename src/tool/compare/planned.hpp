@@ -34,7 +34,7 @@ class Planned {
   [[nodiscard]] int map_count() const noexcept;
   /// The error m of each pixel of the last frame drawn, 0 where there is none: sky, turned from the light.
   [[nodiscard]] std::vector<float> aliasing(const FloatImage& mask) const;
-  /// What the maps will make of a shadow; nothing of pages.
+  /// What the maps or pages will make of a shadow.
   [[nodiscard]] ExpectedError expected(const ShadowPicture& shadow) const noexcept;
   /// The error m as colours.
   [[nodiscard]] Image heat_map(const FloatImage& mask) const;

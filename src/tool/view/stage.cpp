@@ -336,13 +336,13 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
   if (wants_truth_ && truth_.done()) {
     const FloatImage mask = renderer_.mask();
     side.errors = errors_of(mask, truth_.verdicts());
-    if (!side.pages) {
-      const FloatImage positions = renderer_.positions();
-      const std::vector<float> depths = channel(positions, static_cast<std::size_t>(positions.channels) - 1);
-      const std::vector<float> lit = lit_of(truth_.verdicts(), depths.size());
-      side.expected_wrong =
-          expected_error(side.drawn, {camera_, lit, depths, truth_.occluder_distances()}).share();
-    }
+    const FloatImage positions = renderer_.positions();
+    const std::vector<float> depths = channel(positions, static_cast<std::size_t>(positions.channels) - 1);
+    const std::vector<float> lit = lit_of(truth_.verdicts(), depths.size());
+    const ShadowPicture shadow{camera_, lit, depths, truth_.occluder_distances()};
+    side.expected_wrong =
+        (side.pages ? expected_error(side.pages->plan(), shadow) : expected_error(side.drawn, shadow))
+            .share();
   }
   draw_view(state, side, canvas);
   if (state.frozen && state.view != View::map) {

@@ -33,8 +33,8 @@ struct Side {
   double plan_ms = 0.0;
   AliasingStats m;                           ///< over what the plan's camera sees of the boxes
   std::optional<report::MaskErrors> errors;  ///< where the exact shadow is known
-  /// Share of pixels that hard comparison in the plan's maps is to misclassify, without drawing them; known
-  /// where `errors` are, but for pages.
+  /// Share of pixels that hard comparison in the plan's maps or pages is to misclassify, without drawing
+  /// them; known where `errors` are.
   std::optional<double> expected_wrong;
   /// Share of pixels that the step from the plan before to this one flips, 0..1; see Stage::count_flips().
   std::optional<double> flips;

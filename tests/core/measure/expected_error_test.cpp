@@ -107,15 +107,17 @@ bool lit_under(const glm::dmat4& world_from_clip, double ndc_x, double ndc_y, do
 }
 
 /// Pixels whose exact shadow is another in the middle of their texel, in double precision. With a kernel, on
-/// the other side of one half of the mean over a box of texels.
-double wrong_by_texels(const Floor& floor, const ShadowMap& map, double turned, double kernel_texels = 0.0,
-                       double lit_behind_edge = 0.0) {
-  const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
+/// the other side of one half of the mean over a box of texels. `map_of`: the map that serves a point.
+template <class MapOf>
+double wrong_by(const Floor& floor, const MapOf& map_of, double turned, double kernel_texels = 0.0,
+                double lit_behind_edge = 0.0) {
   double wrong = 0.0;
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const auto pixel = static_cast<std::size_t>(i);
     if (floor.depths[pixel] == 0.0f || floor.mask[pixel] < 0.0f) continue;
     const glm::dvec3 point = floor.hit(i % kWidth, i / kWidth);
+    const ShadowMap map = map_of(point);
+    const glm::dmat4 world_from_clip = glm::inverse(map.clip_from_world);
     const glm::dvec4 clip = map.clip_from_world * glm::dvec4(point, 1.0);
     const double x = (clip.x / clip.w + 1.0) * 0.5 * map.width,
                  y = (clip.y / clip.w + 1.0) * 0.5 * map.height;
@@ -138,6 +140,13 @@ double wrong_by_texels(const Floor& floor, const ShadowMap& map, double turned, 
   return wrong;
 }
 
+double wrong_by_texels(const Floor& floor, const ShadowMap& map, double turned, double kernel_texels = 0.0,
+                       double lit_behind_edge = 0.0) {
+  return wrong_by(
+      floor, [&](const glm::dvec3&) -> const ShadowMap& { return map; }, turned, kernel_texels,
+      lit_behind_edge);
+}
+
 TEST(ExpectedError, counts_the_pixels_that_texels_of_the_exact_shadow_get_wrong) {
   const Camera camera =
       perspective_camera({0, 3, 12}, {0, -0.4, -1}, {0, 1, 0}, 0.9, 1.0, 0.5, 100.0, kWidth, kHeight);
@@ -157,6 +166,79 @@ TEST(ExpectedError, counts_the_pixels_that_texels_of_the_exact_shadow_get_wrong)
       EXPECT_NEAR(expected, wrong, 0.15 * wrong) << warp->name << ' ' << size;
     }
   }
+}
+
+/// A page plan of all that a floor's picture shows, and its memory.
+struct FloorPages {
+  std::vector<glm::dvec3> points;
+  std::vector<std::byte> memory;
+  PagePlan plan;
+
+  FloorPages(const Floor& floor, double target_m, Fit fit) {
+    PageOptions pages;
+    pages.plan = floor.options;
+    pages.plan.fit = fit;
+    pages.target_m = target_m;
+    pages.page_texels = 64;
+    pages.fallback = true;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      if (floor.depths[static_cast<std::size_t>(i)] > 0.0f)
+        points.push_back(floor.hit(i % kWidth, i / kWidth));
+    }
+    memory.resize(page_memory(pages.capacity, points.size()));
+    plan = plan_pages({.camera = floor.camera, .points_world = points}, floor.sun, {floor.boxes, floor.boxes},
+                      pages, memory);
+  }
+};
+
+TEST(ExpectedError, counts_the_pixels_that_texels_of_pages_get_wrong) {
+  const Camera camera =
+      perspective_camera({0, 3, 12}, {0, -0.4, -1}, {0, 1, 0}, 0.9, 1.0, 0.5, 100.0, kWidth, kHeight);
+  for (const Fit fit : {Fit::tight, Fit::stable}) {
+    double last = 0.0;
+    for (const double target_m : {2.0, 6.0}) {
+      double wrong = 0.0, expected = 0.0;
+      for (const double turned : {0.15, 1.1}) {
+        const Floor floor(camera, turned);
+        const FloorPages pages(floor, target_m, fit);
+        ASSERT_EQ(pages.plan.status, PlanStatus::ok);
+        ASSERT_GT(pages.plan.levels.size(), 2u);
+        wrong += wrong_by(
+            floor,
+            [&](const glm::dvec3& point) {
+              const int page = page_serving(pages.plan, point);
+              EXPECT_GE(page, 0);
+              return page_map(pages.plan, pages.plan.pages[static_cast<std::size_t>(std::max(page, 0))]);
+            },
+            turned);
+        expected += expected_error(pages.plan, floor.picture()).wrong_pixels;
+      }
+      EXPECT_GT(wrong, 100.0);
+      EXPECT_NEAR(expected, wrong, 0.15 * wrong) << target_m;
+      EXPECT_GT(expected, 1.8 * last) << "a target three times as coarse";
+      last = expected;
+    }
+  }
+}
+
+TEST(ExpectedError, pages_of_one_level_err_as_one_map_of_its_texels) {
+  const Floor floor(from_above(), 0.6);
+  const FloorPages pages(floor, 1e6, Fit::tight);
+  ASSERT_EQ(pages.plan.levels.size(), 1u);
+  ShadowPlan whole = floor.plan();
+  ASSERT_EQ(whole.map_count, 1);
+  whole.map[0] = pages.plan.levels[0];
+  for (const double kernel : {0.0, 1.5}) {
+    const double wrong = expected_error(pages.plan, floor.picture(), kernel).wrong_pixels;
+    EXPECT_GT(wrong, 10.0);
+    EXPECT_EQ(wrong, expected_error(whole, floor.picture(), kernel).wrong_pixels);
+  }
+}
+
+TEST(ExpectedError, points_without_a_page_are_lit) {
+  const Floor floor(from_above(), 0.6);
+  const double dark = static_cast<double>(std::count(floor.mask.begin(), floor.mask.end(), 0.0f));
+  EXPECT_EQ(expected_error(PagePlan{}, floor.picture()).wrong_pixels, dark);
 }
 
 TEST(ExpectedError, averages_over_texels_are_right_more_often_along_an_edge) {
