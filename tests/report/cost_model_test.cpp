@@ -73,6 +73,58 @@ TEST(CostModel, fit_finds_the_costs_that_made_the_times) {
   EXPECT_EQ(vsm.kernel_texels, 1.5);
 }
 
+/// The same of maps, and beside them pages: each is a third as dear, and its look-ups are twice.
+std::vector<Observation> with_pages() {
+  std::vector<Observation> all = made_observations(), pages = all;
+  for (Observation& o : pages) {
+    o.pages = true;
+    o.depth_ms /= 3.0;
+    o.lookup_ms *= 2.0;
+    o.wrong *= 0.5;
+  }
+  all.insert(all.end(), pages.begin(), pages.end());
+  return all;
+}
+
+TEST(CostModel, pages_have_costs_and_errors_of_their_own) {
+  const std::vector<Observation> all = with_pages();
+  const StoredCostModel model = fit_costs(all, "a machine");
+  EXPECT_NEAR(model.drawing.per_megatexel, 3.0, 1e-4);
+  EXPECT_NEAR(model.pages.drawing.per_megatexel, 1.0, 1e-4);
+  ASSERT_EQ(model.filters.size(), 2u);
+  ASSERT_EQ(model.pages.filters.size(), 2u);
+  EXPECT_NEAR(model.filters[0].cost.lookup_ms_per_megapixel, 20.0, 1e-9);
+  EXPECT_NEAR(model.pages.filters[0].cost.lookup_ms_per_megapixel, 40.0, 1e-9);
+  EXPECT_NEAR(model.filters[0].cost.error_ratio, 1.25, 1e-6);
+  EXPECT_NEAR(model.pages.filters[0].cost.error_ratio, 0.625, 1e-6);
+  for (const Observation& o : all) {
+    const double ms = o.frame_ms + o.depth_ms + o.prefilter_ms + o.lookup_ms;
+    EXPECT_NEAR(predicted_ms(model, o), ms, 1e-3 * ms) << o.pages;
+  }
+  std::vector<FilterCost> storage;
+  const CostModel view = cost_model_from_text(to_text(model), "file").view(storage);
+  ASSERT_EQ(view.filters.size(), 2u);
+  ASSERT_EQ(view.page_filters.size(), 2u);
+  EXPECT_EQ(view.page_drawing.per_megatexel, model.pages.drawing.per_megatexel);
+  EXPECT_EQ(view.filters[1].error_ratio, model.filters[1].cost.error_ratio);
+  EXPECT_EQ(view.page_filters[1].error_ratio, model.pages.filters[1].cost.error_ratio);
+  // Without them pages are not known, and too few say nothing.
+  const StoredCostModel maps = fit_costs(made_observations(), "a machine");
+  EXPECT_EQ(predicted_ms(maps, all.back()), std::numeric_limits<double>::infinity());
+  EXPECT_EQ(to_text(maps).find("\"pages\""), std::string::npos);
+  EXPECT_THROW((void)fit_costs({all.data(), 67}, "a machine"), ReportError);
+  EXPECT_THROW((void)fit_costs({all.data() + 60, 60}, "a machine"), ReportError) << "no maps";
+}
+
+TEST(CostModel, pages_in_a_file_are_checked_like_maps) {
+  StoredCostModel model = fit_costs(with_pages(), "a machine");
+  model.pages.drawing.per_map = -1.0;
+  EXPECT_THROW((void)cost_model_from_text(to_text(model), "file"), ReportError);
+  std::string text = to_text(fit_costs(made_observations(), "a machine"));
+  text.insert(1, "\"pages\": 7,");
+  EXPECT_THROW((void)cost_model_from_text(text, "file"), ReportError);
+}
+
 TEST(CostModel, filters_that_compare_have_one_power) {
   std::vector<Observation> all = made_observations();
   for (Observation& o : all) o.compares = true;

@@ -1,13 +1,16 @@
 // Which technique to take: the cheapest that meets an error, or the one with the least error within a budget.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <span>
 #include <string_view>
 
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
+#include "gnomon/pages.hpp"
 #include "gnomon/plan.hpp"
 #include "gnomon/study/expected_error.hpp"
 
@@ -35,9 +38,9 @@ struct CasterWork {
   bool alpha_tested = false;    ///< holes cut by a texture, which is read at every covered texel
 };
 
-/// Work of drawing the depths of all maps of a plan.
+/// Work of drawing the depths of all maps, or pages, of a plan.
 struct PlanWork {
-  double maps = 0.0, megatexels = 0.0;          ///< counts, in the unit of their name
+  double maps = 0.0, megatexels = 0.0;          ///< counts, in the unit of their name; a page counts as a map
   double kilodraws = 0.0, megatriangles = 0.0;  ///< likewise
   /// A map's, times the share of alpha-tested triangles among all that it draws.
   double megatexels_tested = 0.0;
@@ -52,8 +55,10 @@ struct DrawingCosts {
 
 /// Cost of a frame's shadows on some machine: a sum over the drawn work. `gnomon calibrate` measures it.
 struct CostModel {
-  DrawingCosts drawing;                 ///< of depth maps
-  std::span<const FilterCost> filters;  ///< to choose from, at least one
+  DrawingCosts drawing;                           ///< of depth maps
+  std::span<const FilterCost> filters;            ///< of maps, to choose from, at least one
+  DrawingCosts page_drawing = {};                 ///< of pages
+  std::span<const FilterCost> page_filters = {};  ///< of pages, to choose from, at least one where pages are
 };
 
 /// Limits; 0 is none. Without target_error the least error within them is taken, or what is alike. With it
@@ -69,41 +74,57 @@ struct Budget {
   double alike = 0.1;
 };
 
-/// Candidates: the product of all lists. An empty list is the default named beside it.
+/// Page plans among the candidates, each with every filter of CostModel::page_filters.
+struct PageSet {
+  std::span<const PageOptions> options = {};  ///< candidates; none: maps alone
+  /// Of visible surfaces, as View::points_world and PageHistory::feedback have them. Maps are planned
+  /// without.
+  std::span<const glm::dvec3> points_world = {};
+  std::span<const std::uint8_t> feedback = {};  ///< of the points, for policies that read it
+  /// Of the caller: at least page_memory(capacity, points) bytes for each of the options, and as long-lived
+  /// as TechniqueChoice::pages.
+  std::span<std::byte> memory = {};
+};
+
+/// Candidates: the product of all lists, and the pages. An empty list is the default named beside it.
 struct TechniqueSet {
   std::span<const Warp* const> warps;        ///< none, lispsm, optimal
   std::span<const SplitScheme> splits;       ///< automatic
   std::span<const int> cascades;             ///< 1, 2, 3, 4; local lights ignore it
   std::span<const int> map_sizes;            ///< 256, 512, 1024, 2048, 4096
-  static constexpr std::size_t kMost = 512;  ///< plans; what comes later in the product is not tried
+  PageSet pages = {};                        ///< beside that product
+  static constexpr std::size_t kMost = 512;  ///< plans, pages first; what comes later is not tried
 };
 
 /// One technique with what it would cost and err.
 struct Technique {
   const Warp* warp = nullptr;                  ///< nullptr where there is none such
   SplitScheme split = SplitScheme::automatic;  ///< of the cascades
-  int cascades = 0, map_size = 0;              ///< maps; texels along each side
-  int filter = 0;                              ///< index into CostModel::filters
+  int cascades = 0, map_size = 0;              ///< maps; texels along each side, of pages their slots
+  int pages = -1;                              ///< index into PageSet::options; -1: maps
+  int filter = 0;                              ///< index into CostModel::filters, or page_filters
   double error = 0.0;                  ///< share of the picture's pixels that it is to misclassify, in [0,1]
   double milliseconds = 0.0;           ///< predicted, per frame
-  std::int64_t texels = 0, bytes = 0;  ///< of all maps
+  std::int64_t texels = 0, bytes = 0;  ///< of all maps, or resident pages
 };
 
 /// The choice and the trade it made.
 struct TechniqueChoice {
-  /// ok: plan and options are those of `chosen`. Otherwise the status of make_plan: there is nothing to
-  /// choose.
+  /// ok: plan and options are those of `chosen`. Otherwise the status of make_plan or plan_pages: there is
+  /// nothing to choose.
   PlanStatus status = PlanStatus::invalid_input;
-  std::string_view
-      invalid_field;  ///< of make_plan, or "budget", "cost_model[.filters]", "map_sizes", "shadow"
-  bool met = false;   ///< false: nothing fits, `chosen` is the nearest to fitting
-  Technique chosen;   ///< map_size 0 where status is not ok
+  /// That of make_plan or plan_pages, or "budget", "cost_model[.filters, .page_filters]", "map_sizes",
+  /// "shadow".
+  std::string_view invalid_field;
+  bool met = false;  ///< false: nothing fits, `chosen` is the nearest to fitting
+  Technique chosen;  ///< map_size 0 where status is not ok
   /// Marginal trade-offs: the best choice at 80 % of the cost, and at 80 % of the error; map_size 0: there is
   /// none. Limits other than the traded one do not bind them.
   Technique cheaper, better;
   int tried = 0;        ///< techniques that were compared
-  PlanOptions options;  ///< that make the plan
-  ShadowPlan plan;      ///< the maps to draw
+  PlanOptions options;  ///< that make the plan; of pages those of PageOptions::plan
+  ShadowPlan plan;      ///< the maps to draw; none where pages are chosen
+  PagePlan pages;       ///< the pages to draw, in PageSet::memory; none where maps are chosen
 };
 
 /// Plans each technique, counts the pixels that its texels misclassify in `shadow` (expected_error), and
@@ -125,6 +146,9 @@ struct TechniqueChoice {
 
 /// The work of drawing the plan's maps.
 [[nodiscard]] PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,
+                                    std::span<const CasterWork> casters) noexcept;
+/// The work of drawing the plan's pages.
+[[nodiscard]] PlanWork planned_work(const PagePlan& plan, const SceneBounds& bounds,
                                     std::span<const CasterWork> casters) noexcept;
 
 }  // namespace gnomon

@@ -51,13 +51,9 @@ std::array<double, 6> all_of(const DrawingCosts& costs) noexcept {
 /// The different kernels of filters.
 class Kernels {
  public:
-  explicit Kernels(std::span<const FilterCost> filters) noexcept {
-    for (const FilterCost& f : filters) {
-      if (number_of(f.kernel_texels) < count_) continue;
-      too_many_ = count_ == kMaxKernels;
-      if (too_many_) return;
-      texels_[count_++] = f.kernel_texels;
-    }
+  explicit Kernels(const CostModel& costs) noexcept {
+    for (const std::span<const FilterCost> filters : {costs.filters, costs.page_filters})
+      for (const FilterCost& f : filters) add(f.kernel_texels);
   }
   [[nodiscard]] bool too_many() const noexcept { return too_many_; }
   [[nodiscard]] std::span<const double> texels() const noexcept { return {texels_.data(), count_}; }
@@ -67,27 +63,38 @@ class Kernels {
   }
 
  private:
+  void add(double texels) noexcept {
+    if (number_of(texels) < count_) return;
+    too_many_ = too_many_ || count_ == kMaxKernels;
+    if (!too_many_) texels_[count_++] = texels;
+  }
+
   std::array<double, kMaxKernels> texels_{};
   std::size_t count_ = 0;
   bool too_many_ = false;
 };
 
+bool are_costs(std::span<const FilterCost> filters) noexcept {
+  return std::all_of(filters.begin(), filters.end(), [](const FilterCost& f) {
+    return is_limit(f.prefilter_ms_per_map) && is_limit(f.prefilter_ms_per_megatexel) &&
+           is_limit(f.lookup_ms_per_megapixel) && is_limit(f.bytes_per_texel) &&
+           f.bytes_per_texel <= kMaxBytes && is_limit(f.error_ratio) && f.error_ratio > 0.0 &&
+           f.error_power >= 0.0 && f.error_power <= kMaxPower && f.kernel_texels >= 0.0 &&
+           f.kernel_texels <= kMaxKernelTexels;
+  });
+}
+
 std::string_view broken(const Budget& budget, const CostModel& costs, const TechniqueSet& among) noexcept {
   if (budget.texels < 0 || budget.bytes < 0 || !is_limit(budget.milliseconds) ||
       !is_limit(budget.target_error) || !is_limit(budget.alike))
     return "budget";
-  for (const double cost : all_of(costs.drawing))
-    if (!is_limit(cost)) return "cost_model";
-  if (costs.filters.empty()) return "cost_model.filters";
-  for (const FilterCost& f : costs.filters) {
-    const bool fine = is_limit(f.prefilter_ms_per_map) && is_limit(f.prefilter_ms_per_megatexel) &&
-                      is_limit(f.lookup_ms_per_megapixel) && is_limit(f.bytes_per_texel) &&
-                      f.bytes_per_texel <= kMaxBytes && is_limit(f.error_ratio) && f.error_ratio > 0.0 &&
-                      f.error_power >= 0.0 && f.error_power <= kMaxPower && f.kernel_texels >= 0.0 &&
-                      f.kernel_texels <= kMaxKernelTexels;
-    if (!fine) return "cost_model.filters";
-  }
-  if (Kernels(costs.filters).too_many()) return "cost_model.filters";
+  for (const DrawingCosts& drawing : {costs.drawing, costs.page_drawing})
+    for (const double cost : all_of(drawing))
+      if (!is_limit(cost)) return "cost_model";
+  if (costs.filters.empty() || !are_costs(costs.filters)) return "cost_model.filters";
+  const bool no_filter = costs.page_filters.empty() && !among.pages.options.empty();
+  if (no_filter || !are_costs(costs.page_filters)) return "cost_model.page_filters";
+  if (Kernels(costs).too_many()) return "cost_model.filters";
   const bool sizes = std::all_of(among.map_sizes.begin(), among.map_sizes.end(),
                                  [](int size) { return size >= kLeastMapSize && size <= kMaxMapSize; });
   return sizes ? std::string_view() : "map_sizes";
@@ -97,16 +104,20 @@ class Choosing {
  public:
   Choosing(const Camera& camera, const CostModel& costs) noexcept
       : costs_(costs),
-        kernels_(costs.filters),
+        kernels_(costs),
         megapixels_(static_cast<double>(camera.width) * camera.height / kMega) {
-    for (const double cost : all_of(costs.drawing)) any_time_ = any_time_ || cost > 0.0;
-    for (const FilterCost& f : costs.filters)
-      any_time_ = any_time_ || f.prefilter_ms_per_map > 0.0 || f.prefilter_ms_per_megatexel > 0.0 ||
-                  f.lookup_ms_per_megapixel > 0.0;
+    for (const DrawingCosts& drawing : {costs.drawing, costs.page_drawing})
+      for (const double cost : all_of(drawing)) any_time_ = any_time_ || cost > 0.0;
+    for (const std::span<const FilterCost> filters : {costs.filters, costs.page_filters})
+      for (const FilterCost& f : filters)
+        any_time_ = any_time_ || f.prefilter_ms_per_map > 0.0 || f.prefilter_ms_per_megatexel > 0.0 ||
+                    f.lookup_ms_per_megapixel > 0.0;
   }
 
   [[nodiscard]] bool full() const noexcept { return count_ == all_.size(); }
-  void add(const Technique& technique, const ShadowPlan& plan, const ShadowPicture& shadow,
+  /// `plan`: of maps or of pages.
+  template <class Plan>
+  void add(const Technique& technique, const Plan& plan, const ShadowPicture& shadow,
            const PlanWork& work) noexcept {
     Planned& planned = all_[count_++];
     planned.technique = technique;
@@ -114,8 +125,9 @@ class Choosing {
     const std::span<const double> texels = kernels_.texels();
     for (std::size_t i = 0; i < texels.size(); ++i)
       planned.wrong[i] = expected_error(plan, shadow, texels[i]).share();
+    tried_ += filters_of(technique).size();
   }
-  [[nodiscard]] int tried() const noexcept { return static_cast<int>(count_ * costs_.filters.size()); }
+  [[nodiscard]] int tried() const noexcept { return static_cast<int>(tried_); }
 
   [[nodiscard]] double cost(const Technique& t) const noexcept {
     return any_time_ ? t.milliseconds : static_cast<double>(t.texels);
@@ -179,9 +191,13 @@ class Choosing {
     return a < b || (a == b && tie_a < tie_b);
   }
 
+  [[nodiscard]] std::span<const FilterCost> filters_of(const Technique& t) const noexcept {
+    return t.pages < 0 ? costs_.filters : costs_.page_filters;
+  }
+
   [[nodiscard]] Technique priced(const Planned& planned, std::size_t filter) const noexcept {
-    const FilterCost& f = costs_.filters[filter];
     Technique t = planned.technique;
+    const FilterCost& f = filters_of(t)[filter];
     t.filter = static_cast<int>(filter);
     const double wrong = planned.wrong[kernels_.number_of(f.kernel_texels)];
     // Nothing has no logarithm.
@@ -189,14 +205,16 @@ class Choosing {
     const double power = has_power ? elementary::pow(wrong, f.error_power) : wrong;
     t.error = std::min(f.error_ratio * power, 1.0);
     t.bytes = static_cast<std::int64_t>(std::llround(static_cast<double>(t.texels) * f.bytes_per_texel));
-    t.milliseconds = predicted_ms(costs_.drawing, f, planned.work, megapixels_);
+    const DrawingCosts& drawing = t.pages < 0 ? costs_.drawing : costs_.page_drawing;
+    t.milliseconds = predicted_ms(drawing, f, planned.work, megapixels_);
     return t;
   }
 
   template <class Visit>
   void each(Visit&& visit) const noexcept {
     for (std::size_t i = 0; i < count_; ++i) {
-      for (std::size_t filter = 0; filter < costs_.filters.size(); ++filter) visit(priced(all_[i], filter));
+      const std::size_t filters = filters_of(all_[i].technique).size();
+      for (std::size_t filter = 0; filter < filters; ++filter) visit(priced(all_[i], filter));
     }
   }
 
@@ -205,7 +223,7 @@ class Choosing {
   double megapixels_;
   bool any_time_ = false;
   std::array<Planned, TechniqueSet::kMost> all_;
-  std::size_t count_ = 0;
+  std::size_t count_ = 0, tried_ = 0;
 };
 
 PlanOptions options_of(const PlanOptions& base, const Technique& t) noexcept {
@@ -245,27 +263,38 @@ void for_each_caster(const ShadowMap& map, const Boxes& casters, Use&& use) noex
   }
 }
 
+/// Adds the work of drawing one map, or page.
+void add_work(const ShadowMap& map, const SceneBounds& bounds, std::span<const CasterWork> casters,
+              PlanWork& work) noexcept {
+  std::size_t draws = 0;
+  double triangles = 0.0, tested = 0.0;
+  for_each_caster(map, bounds.casters, [&](std::size_t caster) {
+    ++draws;
+    if (caster >= casters.size()) return;
+    triangles += casters[caster].triangles;
+    tested += casters[caster].alpha_tested ? casters[caster].triangles : 0.0;
+  });
+  const double megatexels = static_cast<double>(map.width) * map.height / kMega;
+  work.maps += 1.0;
+  work.megatexels += megatexels;
+  work.kilodraws += static_cast<double>(draws) / kKilo;
+  work.megatriangles += triangles / kMega;
+  work.megatexels_tested += triangles > 0.0 ? tested / triangles * megatexels : 0.0;
+}
+
 }  // namespace
 
 PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,
                       std::span<const CasterWork> casters) noexcept {
   PlanWork work;
-  std::size_t draws = 0;
-  for (const ShadowMap& map : plan.maps()) {
-    const double megatexels = static_cast<double>(map.width) * map.height / kMega;
-    double triangles = 0.0, tested = 0.0;
-    for_each_caster(map, bounds.casters, [&](std::size_t caster) {
-      ++draws;
-      if (caster >= casters.size()) return;
-      triangles += casters[caster].triangles;
-      tested += casters[caster].alpha_tested ? casters[caster].triangles : 0.0;
-    });
-    work.maps += 1.0;
-    work.megatexels += megatexels;
-    work.megatriangles += triangles / kMega;
-    work.megatexels_tested += triangles > 0.0 ? tested / triangles * megatexels : 0.0;
-  }
-  work.kilodraws = static_cast<double>(draws) / kKilo;
+  for (const ShadowMap& map : plan.maps()) add_work(map, bounds, casters, work);
+  return work;
+}
+
+PlanWork planned_work(const PagePlan& plan, const SceneBounds& bounds,
+                      std::span<const CasterWork> casters) noexcept {
+  PlanWork work;
+  for (const Page& page : plan.pages) add_work(page_map(plan, page), bounds, casters, work);
   return work;
 }
 
@@ -286,13 +315,34 @@ TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, 
   if (choice.invalid_field.empty() && !shadow.is_whole()) choice.invalid_field = "shadow";
   if (!choice.invalid_field.empty()) return choice;
   Choosing choosing(view.camera, costs);
+  const auto fails = [&](const auto& plan) {
+    choice.status = plan.status;
+    choice.invalid_field = plan.invalid_field;
+    return plan.status != PlanStatus::ok;
+  };
+  const PageSet& pages = among.pages;
+  const auto paged = [&](int index) {
+    View seen = view;
+    seen.points_world = pages.points_world;
+    seen.normals_world = {};
+    const PageHistory history{nullptr, pages.feedback};
+    return plan_pages(seen, light, bounds, pages.options[static_cast<std::size_t>(index)], pages.memory,
+                      &history);
+  };
+  for (int i = 0; static_cast<std::size_t>(i) < pages.options.size() && !choosing.full(); ++i) {
+    const PagePlan plan = paged(i);
+    if (fails(plan)) return choice;
+    Technique t{pages.options[static_cast<std::size_t>(i)].plan.warp.warp};
+    t.map_size = plan.slot_texels();
+    t.pages = i;
+    t.texels = static_cast<std::int64_t>(plan.pages.size()) * t.map_size * t.map_size;
+    choosing.add(t, plan, shadow, planned_work(plan, bounds, casters));
+  }
   const bool positional = !std::holds_alternative<DirectionalLight>(light);
   const std::span<const int> cascades = given_or(among.cascades, kCascades);
   const auto add = [&](Technique t) {
     const ShadowPlan plan = make_plan(view, light, bounds, options_of(base, t));
-    choice.status = plan.status;
-    choice.invalid_field = plan.invalid_field;
-    if (plan.status != PlanStatus::ok) {
+    if (fails(plan)) {
       choice.plan = plan;
       return false;
     }
@@ -313,6 +363,11 @@ TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, 
   choice.cheaper = choosing.cheaper_than(choice.chosen);
   choice.better = choosing.better_than(choice.chosen);
   choice.tried = choosing.tried();
+  if (choice.chosen.pages >= 0) {
+    choice.options = pages.options[static_cast<std::size_t>(choice.chosen.pages)].plan;
+    choice.pages = paged(choice.chosen.pages);
+    return choice;
+  }
   choice.options = options_of(base, choice.chosen);
   choice.plan = make_plan(view, light, bounds, choice.options);
   return choice;

@@ -50,32 +50,32 @@ StoredCostModel::Filter filter_from(const Json& json) {
   return filter;
 }
 
+StoredCosts costs_from(const Json& json) {
+  StoredCosts costs;
+  for (const auto& [key, cost] : kDrawing) get_cost(json, key, costs.drawing.*cost);
+  const Json& errors = json.at("mean_relative_error");
+  get_cost(errors, "depth", costs.depth_error);
+  get_cost(errors, "prefilter", costs.prefilter_error);
+  get_cost(errors, "lookup", costs.lookup_error);
+  for (const Json& filter : json.at("filters")) costs.filters.push_back(filter_from(filter));
+  if (costs.filters.empty()) throw ReportError("filters: there is none");
+  return costs;
+}
+
 StoredCostModel model_from(const Json& json) {
   const std::string schema = json.at("schema").get<std::string>();
   if (schema != kCostSchema) throw ReportError("schema '" + schema + "', wanted '" + kCostSchema + "'");
-  StoredCostModel model;
-  model.machine = words_from(json, "machine");
-  for (const auto& [key, cost] : kDrawing) get_cost(json, key, model.drawing.*cost);
-  const Json& errors = json.at("mean_relative_error");
-  get_cost(errors, "depth", model.depth_error);
-  get_cost(errors, "prefilter", model.prefilter_error);
-  get_cost(errors, "lookup", model.lookup_error);
-  for (const Json& filter : json.at("filters")) model.filters.push_back(filter_from(filter));
-  if (model.filters.empty()) throw ReportError("filters: there is none");
+  StoredCostModel model{costs_from(json), words_from(json, "machine"), {}};
+  if (json.contains("pages")) model.pages = costs_from(json.at("pages"));
   return model;
 }
 
-}  // namespace
-
-std::string to_text(const StoredCostModel& model) {
-  Json json{
-      {"schema", kCostSchema},
-      {"machine", model.machine},
-      {"mean_relative_error",
-       {{"depth", model.depth_error}, {"prefilter", model.prefilter_error}, {"lookup", model.lookup_error}}}};
-  for (const auto& [key, cost] : kDrawing) json[key] = model.drawing.*cost;
+void put(const StoredCosts& costs, Json& json) {
+  json["mean_relative_error"] = {
+      {"depth", costs.depth_error}, {"prefilter", costs.prefilter_error}, {"lookup", costs.lookup_error}};
+  for (const auto& [key, cost] : kDrawing) json[key] = costs.drawing.*cost;
   json["filters"] = Json::array();
-  for (const auto& [name, cost] : model.filters) {
+  for (const auto& [name, cost] : costs.filters) {
     json["filters"].push_back({{"name", name},
                                {"prefilter_ms_per_map", cost.prefilter_ms_per_map},
                                {"prefilter_ms_per_megatexel", cost.prefilter_ms_per_megatexel},
@@ -85,6 +85,14 @@ std::string to_text(const StoredCostModel& model) {
                                {"error_power", cost.error_power},
                                {"kernel_texels", cost.kernel_texels}});
   }
+}
+
+}  // namespace
+
+std::string to_text(const StoredCostModel& model) {
+  Json json{{"schema", kCostSchema}, {"machine", model.machine}};
+  put(model, json);
+  if (!model.pages.filters.empty()) put(model.pages, json["pages"]);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -160,26 +160,32 @@ std::vector<double> least_squares(std::span<const std::vector<double>> rows, std
 
 CostModel StoredCostModel::view(std::vector<FilterCost>& costs) const {
   costs.clear();
-  for (const Filter& filter : filters) {
-    costs.push_back(filter.cost);
-    costs.back().name = filter.name;
+  for (const std::vector<Filter>* const list : {&filters, &pages.filters}) {
+    for (const Filter& filter : *list) {
+      costs.push_back(filter.cost);
+      costs.back().name = filter.name;
+    }
   }
-  return {drawing, costs};
+  const std::span<const FilterCost> all(costs);
+  return {drawing, all.first(filters.size()), pages.drawing, all.subspan(filters.size())};
 }
 
 double predicted_ms(const StoredCostModel& model, const Observation& observation) noexcept {
-  const auto filter = std::find_if(model.filters.begin(), model.filters.end(),
+  const StoredCosts& costs = observation.pages ? model.pages : model;
+  const auto filter = std::find_if(costs.filters.begin(), costs.filters.end(),
                                    [&](const auto& one) { return one.name == observation.filter; });
-  if (filter == model.filters.end()) return std::numeric_limits<double>::infinity();
-  return gnomon::predicted_ms(model.drawing, filter->cost, observation.work, observation.megapixels);
+  if (filter == costs.filters.end()) return std::numeric_limits<double>::infinity();
+  return gnomon::predicted_ms(costs.drawing, filter->cost, observation.work, observation.megapixels);
 }
 
-StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine) {
+namespace {
+
+/// Of maps alone, or of pages alone.
+StoredCosts fit_alike(std::span<const Observation> observations) {
   if (observations.size() < kFewest)
     throw ReportError("a cost model wants at least " + std::to_string(kFewest) + " rows, there are " +
                       std::to_string(observations.size()));
-  StoredCostModel model;
-  model.machine = std::move(machine);
+  StoredCosts model;
   Part depth;
   std::map<std::string, std::pair<Part, Part>> filters;  // prefilter and look-up
   std::map<std::string, const Observation*> any;         // of each filter
@@ -210,6 +216,16 @@ StoredCostModel fit_costs(std::span<const Observation> observations, std::string
     model.prefilter_error += relative_error(parts.first.rows, parts.first.values, stored) / count;
     model.lookup_error += relative_error(parts.second.rows, parts.second.values, looked) / count;
   }
+  return model;
+}
+
+}  // namespace
+
+StoredCostModel fit_costs(std::span<const Observation> observations, std::string machine) {
+  std::vector<Observation> maps, pages;
+  for (const Observation& o : observations) (o.pages ? pages : maps).push_back(o);
+  StoredCostModel model{fit_alike(maps), std::move(machine), {}};
+  if (!pages.empty()) model.pages = fit_alike(pages);
   return model;
 }
 

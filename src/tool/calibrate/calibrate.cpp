@@ -37,6 +37,7 @@ std::vector<CompareRequest> own_sweep(const CalibrateRequest& request) {
   sun.filters = read_filters("--filters", {"hard", "pcf", "pcss", "vsm", "evsm4", "msm"});
   sun.cascades = {1, 3};
   sun.map_sizes = {256, 1024};
+  sun.pages = read_page_policies("--pages", {"resolution", "clipmap"});
   sun.frames = 1;
   sun.rounds = 3;
   sun.width = 320;
@@ -54,16 +55,17 @@ std::vector<CompareRequest> own_sweep(const CalibrateRequest& request) {
   return sweep;
 }
 
-void print_model(const report::StoredCostModel& m, const std::string& file) {
+void print_costs(const report::StoredCosts& m, const char* unit) {
   const DrawingCosts& d = m.drawing;
-  print_line(fmt::format(
-      "# {}\nms = {:.3f} + {:.3f} per map + {:.3f} per million texels + {:.3f} per thousand draws + "
-      "{:.3f} per million triangles + {:.3f} per million texels of alpha-tested casters",
-      m.machine, d.per_frame, d.per_map, d.per_megatexel, d.per_kilodraw, d.per_megatriangle,
-      d.per_megatexel_tested));
   print_line(
-      "\n| filter | prefilter ms per map | per million texels | look-up ms per million pixels | "
-      "bytes per texel | factor of the expected error | its power |\n|--|--:|--:|--:|--:|--:|--:|");
+      fmt::format("ms = {:.3f} + {:.3f} per {} + {:.3f} per million texels + {:.3f} per thousand draws + "
+                  "{:.3f} per million triangles + {:.3f} per million texels of alpha-tested casters",
+                  d.per_frame, d.per_map, unit, d.per_megatexel, d.per_kilodraw, d.per_megatriangle,
+                  d.per_megatexel_tested));
+  print_line(fmt::format(
+      "\n| filter | prefilter ms per {} | per million texels | look-up ms per million pixels | "
+      "bytes per texel | factor of the expected error | its power |\n|--|--:|--:|--:|--:|--:|--:|",
+      unit));
   for (const auto& [name, c] : m.filters) {
     print_line(fmt::format("| {} | {:.3f} | {:.3f} | {:.2f} | {:.0f} | {:.3f} | {:.3f} |", name,
                            c.prefilter_ms_per_map, c.prefilter_ms_per_megatexel, c.lookup_ms_per_megapixel,
@@ -72,6 +74,15 @@ void print_model(const report::StoredCostModel& m, const std::string& file) {
   print_line(
       fmt::format("\nmean relative error of the fit: depth {:.0f} %, prefilter {:.0f} %, look-up {:.0f} %",
                   100.0 * m.depth_error, 100.0 * m.prefilter_error, 100.0 * m.lookup_error));
+}
+
+void print_model(const report::StoredCostModel& m, const std::string& file) {
+  print_line("# " + m.machine);
+  print_costs(m, "map");
+  if (!m.pages.filters.empty()) {
+    print_line("\n# pages");
+    print_costs(m.pages, "page");
+  }
   print_line("model: " + file);
 }
 
@@ -115,10 +126,9 @@ int run_calibrate(const CalibrateRequest& request, bool json) {
     for (const std::string& line : warnings) std::fprintf(stderr, "gnomon: warning: %s\n", line.c_str());
     rows.insert(rows.end(), more.begin(), more.end());
   }
-  // The cost model is one of maps that are drawn once, of scenes at rest.
-  std::erase_if(rows, [](const report::Row& row) {
-    return !row.technique.pages.empty() || !row.technique.layer.empty() || !row.animation.empty();
-  });
+  // The cost model is one of maps and pages that are drawn once, of scenes at rest.
+  std::erase_if(
+      rows, [](const report::Row& row) { return !row.technique.layer.empty() || !row.animation.empty(); });
   if (rows.empty()) throw std::runtime_error("no results to calibrate with");
   const int code = request.check ? check_planner(report::load_cost_model(request.model), rows, json)
                                  : fit(request, rows, json);

@@ -44,17 +44,22 @@ std::size_t row_of(const View& frame, const report::Technique& technique) {
 class PickedFrame {
  public:
   PickedFrame(const View& view, const report::StoredCostModel& model) : view_(view), replanned_(view) {
-    std::set<std::string> filters;
+    std::set<std::string> filters, page_filters;
     for (const report::Row& row : view.rows) {
-      filters.insert(row.technique.filter);
+      (row.technique.pages.empty() ? filters : page_filters).insert(row.technique.filter);
       priced_.push_back(measured(row));
       priced_.back().model_ms = report::predicted_ms(model, replanned_.observe(row));
     }
     known_ = model;
-    std::erase_if(known_.filters, [&](const auto& filter) { return !filters.contains(filter.name); });
-    if (known_.filters.empty())
-      throw std::runtime_error("the cost model knows none of the filters of " + view.name);
-    costs_ = known_.view(filters_);
+    const auto keep = [&](const char* what, const std::set<std::string>& measured,
+                          report::StoredCosts& costs) {
+      std::erase_if(costs.filters, [&](const auto& filter) { return !measured.contains(filter.name); });
+      if (costs.filters.empty() && !measured.empty())
+        throw std::runtime_error(std::string("the cost model knows none of the ") + what + " of " +
+                                 view.name);
+    };
+    keep("filters", filters, known_);
+    keep("filters of pages", page_filters, known_.pages);
   }
 
   /// In the order of the rows.
@@ -68,28 +73,20 @@ class PickedFrame {
   };
   /// None where there is nothing to choose: no maps.
   [[nodiscard]] std::optional<Picked> pick(const Budget& request) const {
-    const TechniqueChoice choice = replanned_.choose(view_, request, costs_);
+    const Replanned::Choice choice = replanned_.choose(view_, request, known_);
     if (choice.status != PlanStatus::ok) return std::nullopt;
-    const std::string& filter = known_.filters[static_cast<std::size_t>(choice.chosen.filter)].name;
-    const auto is_chosen = [&](const report::Row& row) {
-      const report::Technique& t = row.technique;
-      return t.warp == choice.chosen.warp->name && t.cascades == choice.chosen.cascades &&
-             t.map_size == choice.chosen.map_size && t.filter == filter;
-    };
-    const auto row = std::find_if(view_.rows.begin(), view_.rows.end(), is_chosen);
+    const auto row = std::find_if(view_.rows.begin(), view_.rows.end(),
+                                  [&](const report::Row& r) { return r.technique == choice.technique; });
     if (row == view_.rows.end())
       throw std::runtime_error(view_.name + ": the sweep is no full product, the pick was not measured");
-    return Picked{static_cast<std::size_t>(row - view_.rows.begin()), choice.chosen.error,
-                  choice.chosen.texels};
+    return Picked{static_cast<std::size_t>(row - view_.rows.begin()), choice.error, choice.texels};
   }
 
  private:
   const View& view_;
   Replanned replanned_;
   std::vector<PricedTechnique> priced_;
-  report::StoredCostModel known_;
-  std::vector<FilterCost> filters_;  ///< storage of costs_
-  CostModel costs_;
+  report::StoredCostModel known_;  ///< of the filters that were measured
 };
 
 /// One request along a flight.

@@ -8,8 +8,6 @@
 #include <map>
 #include <stdexcept>
 
-#include "compare/sweep.hpp"
-
 namespace gnomon::tool {
 namespace {
 
@@ -55,6 +53,30 @@ Camera finer(Camera camera) noexcept {
   return camera;
 }
 
+/// Of a frame's pixels, as a renderer gives them: from the camera, with the view depth; 0 where there is sky.
+FloatImage positions_of(const trace::SeenShadow& seen) {
+  const Camera& camera = seen.camera;
+  const CameraAxes axes = camera_axes(camera);
+  FloatImage positions{camera.width, camera.height, 4, {}, {}};
+  for (int row = 0; row < camera.height; ++row) {
+    for (int column = 0; column < camera.width; ++column) {
+      const float depth = seen.view_depths[positions.values.size() / 4];
+      const double scale = camera.orthographic ? 1.0 : static_cast<double>(depth);
+      const double right = camera.left + (camera.right - camera.left) * (column + 0.5) / camera.width,
+                   up = camera.top + (camera.bottom - camera.top) * (row + 0.5) / camera.height;
+      const glm::vec3 from_camera(axes.forward * static_cast<double>(depth) + axes.right * (right * scale) +
+                                  axes.up * (up * scale));
+      positions.values.insert(positions.values.end(), {from_camera.x, from_camera.y, from_camera.z, depth});
+    }
+  }
+  return positions;
+}
+
+report::Technique without_filter(report::Technique technique) {
+  technique.filter.clear();
+  return technique;
+}
+
 }  // namespace
 
 std::vector<View> views_of(const std::vector<report::Row>& rows) {
@@ -63,7 +85,11 @@ std::vector<View> views_of(const std::vector<report::Row>& rows) {
   for (const report::Row& row : rows) {
     if (row.technique.filter.starts_with(kIrregular)) continue;  // no model predicts it: it reads no map
     if (row.technique.is_given()) continue;                      // planned by others
-    if (!row.times.known()) continue;                            // of a frame that was not timed
+    // Its pages follow from the frames before.
+    if (const PagePolicy* const policy = find_page_policy(row.technique.pages);
+        policy != nullptr && (policy->feedback & kShadowChanged) != 0)
+      continue;
+    if (!row.times.known()) continue;  // of a frame that was not timed
     // Rows do not hold what the files of a path and of shadow proxies do.
     if (!row.camera.empty() || !row.edits.empty()) continue;
     const std::string light = fmt::format("{} {:g}/{:g} {}x{}", row.light, row.light_elevation_deg,
@@ -84,16 +110,36 @@ Replanned::Replanned(const View& view)
     : name_(view.name),
       scene_(lit_scene(view.rows.front())),
       camera_(scene_.camera(view.rows.front().frame, view.rows.front().frames, view.rows.front().width,
-                            view.rows.front().height)),
-      shadow_(trace::seen_shadow(trace::Tracer(scene_.scene()), finer(camera_), scene_.light())) {}
+                            view.rows.front().height)) {
+  const trace::Tracer tracer(scene_.scene());
+  shadow_ = trace::seen_shadow(tracer, finer(camera_), scene_.light());
+  const trace::SeenShadow seen = trace::seen_shadow(tracer, camera_, scene_.light());
+  surfaces_ = visible_surfaces(positions_of(seen), nullptr, camera_);
+  // What is turned away from the light is drawn dark.
+  std::vector<float> lit = seen.mask;
+  for (float& value : lit) value = std::max(value, 0.0f);
+  feedback_ = feedback_of(surfaces_, lit, {});
+  for (std::size_t i = 0; i < feedback_.size(); ++i)
+    feedback_[i] |= static_cast<std::uint8_t>(surfaces_.depth_edges[i] ? kDepthEdge : 0);
+}
+
+PageOptions Replanned::pages_of(const SweepEntry& entry) const noexcept {
+  PageOptions pages = entry.pages;
+  pages.plan = entry.plan;
+  const bool positional = !std::holds_alternative<DirectionalLight>(scene_.light());
+  const bool spot = std::holds_alternative<SpotLight>(scene_.light());
+  pages.capacity = page_capacity(entry, !positional ? LightKind::sun
+                                        : spot      ? LightKind::spot
+                                                    : LightKind::point);
+  return pages;
+}
 
 report::Observation Replanned::observe(const report::Row& row) const {
   const SweepEntry entry = sweep_entry(row.technique);
-  const ShadowPlan plan = make_plan(camera_, scene_.light(), scene_.bounds(), entry.plan);
   report::Observation o;
   o.view = name_;
   o.filter = row.technique.filter;
-  o.work = planned_work(plan, scene_.bounds(), scene_.work());
+  o.pages = entry.by_pages();
   o.megapixels = static_cast<double>(row.width) * row.height / kMega;
   o.bytes_per_texel = render::bytes_per_texel(entry.filter);
   o.frame_ms = row.times.plan_ns.median / kMega;
@@ -102,34 +148,80 @@ report::Observation Replanned::observe(const report::Row& row) const {
   o.lookup_ms = row.times.shade_ms.median;
   o.kernel_texels = averaged_texels(entry.filter);
   o.compares = compares(entry.filter);
-  o.expected = expected_error(plan, shadow_.picture(), o.kernel_texels).share();
   o.wrong = wrong_pixels(row);
   o.pixels = static_cast<double>(row.errors.pixels);
+  const auto predict = [&](const auto& plan) {
+    o.work = planned_work(plan, scene_.bounds(), scene_.work());
+    o.expected = expected_error(plan, shadow_.picture(), o.kernel_texels).share();
+  };
+  if (!o.pages) {
+    predict(make_plan(camera_, scene_.light(), scene_.bounds(), entry.plan));
+    return o;
+  }
+  const PageOptions options = pages_of(entry);
+  std::vector<std::byte> memory(page_memory(options.capacity, surfaces_.points.size()));
+  const gnomon::View seen{.camera = camera_, .points_world = surfaces_.points};
+  const PageHistory history{nullptr, feedback_};
+  predict(plan_pages(seen, scene_.light(), scene_.bounds(), options, memory, &history));
   return o;
 }
 
-TechniqueChoice Replanned::choose(const View& view, const Budget& budget, const CostModel& costs) const {
+Replanned::Choice Replanned::choose(const View& view, const Budget& budget,
+                                    const report::StoredCostModel& model) const {
   std::vector<const Warp*> warps;
   std::vector<SplitScheme> splits;
   std::vector<int> cascades, sizes;
+  std::vector<report::Technique> paged;  // without their filters
+  std::vector<PageOptions> pages;
+  const report::Technique* maps = nullptr;
+  int capacity = 0;
   const auto once = [](auto& list, const auto& value) {
-    if (std::find(list.begin(), list.end(), value) == list.end()) list.push_back(value);
+    const bool is_new = std::find(list.begin(), list.end(), value) == list.end();
+    if (is_new) list.push_back(value);
+    return is_new;
   };
   for (const report::Row& row : view.rows) {
     const SweepEntry entry = sweep_entry(row.technique);
+    if (entry.by_pages()) {
+      if (!once(paged, without_filter(row.technique))) continue;
+      pages.push_back(pages_of(entry));
+      capacity = std::max(capacity, pages.back().capacity);
+      continue;
+    }
     if (entry.plan.fit != Fit::tight || entry.plan.split.partition != Partition::view_depth ||
         entry.plan.warp.warp == nullptr || !entry.plan.warp.shape->affine)
       throw std::runtime_error(row.technique.name() +
                                ": the planner chooses among named warps with linear texels, split by depth");
+    maps = &row.technique;
     once(warps, entry.plan.warp.warp);
     once(splits, entry.plan.split.scheme);
     once(cascades, entry.plan.cascades);
     once(sizes, entry.plan.resolution.max_size);
   }
+  if (maps == nullptr) throw std::runtime_error(view.name + ": has pages alone, and no maps beside them");
   if (splits.size() > 1) throw std::runtime_error(view.name + ": more than one kind of split");
-  return choose_technique(camera_, shadow_.picture(), scene_.light(), scene_.bounds(), scene_.work(),
-                          {warps, splits, cascades, sizes}, budget, costs,
-                          sweep_entry(view.rows.front().technique).plan);
+  std::vector<FilterCost> filters;
+  const CostModel costs = model.view(filters);
+  std::vector<std::byte> memory(pages.empty() ? 0 : page_memory(capacity, surfaces_.points.size()));
+  const TechniqueChoice choice =
+      choose_technique(camera_, shadow_.picture(), scene_.light(), scene_.bounds(), scene_.work(),
+                       {warps, splits, cascades, sizes, {pages, surfaces_.points, feedback_, memory}}, budget,
+                       costs, sweep_entry(view.rows.front().technique).plan);
+  if (choice.status == PlanStatus::invalid_input)
+    throw std::runtime_error(view.name + ": no technique for " + std::string(choice.invalid_field));
+  if (choice.status != PlanStatus::ok) return {choice.status};
+  const Technique& chosen = choice.chosen;
+  Choice named{choice.status, *maps, chosen.error, chosen.texels};
+  if (chosen.pages >= 0) {
+    named.technique = paged[static_cast<std::size_t>(chosen.pages)];
+  } else {
+    named.technique.warp = chosen.warp->name;
+    named.technique.cascades = chosen.cascades;
+    named.technique.map_size = chosen.map_size;
+  }
+  const auto& known = chosen.pages >= 0 ? model.pages.filters : model.filters;
+  named.technique.filter = known[static_cast<std::size_t>(chosen.filter)].name;
+  return named;
 }
 
 }  // namespace gnomon::tool

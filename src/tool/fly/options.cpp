@@ -68,15 +68,13 @@ void check_animation(const Options& options) {
 }  // namespace
 
 std::string_view for_whole_maps(const Options& options) {
-  const std::array<std::pair<bool, const char*>, 8> of_maps{{
+  const std::array<std::pair<bool, const char*>, 7> of_maps{{
       {!options.compared_warps.empty(), "--compare-warps"},
       {options.history, "--history"},
       {options.visible_depths, "--visible-depths"},
       {options.coarse_depths, "--coarse-depths"},
       {options.transition != render::SplitTransition::cut, "--transition"},
       {options.perceptual_resolution, "--resolution perceptual"},
-      {options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0,
-       "--budget-ms and --target-error"},
       {options.filter_precision > 0.0, "--filter-precision"},
   }};
   for (const auto& [given, name] : of_maps)
@@ -245,7 +243,8 @@ std::vector<Option> budget_options(Request& request) {
            .names = resolutions},
           {.name = "--budget-ms",
            .target = &options.budget.milliseconds,
-           .help = "choose warp, maps and filter for the least error within this time, milliseconds; 0: off",
+           .help = "choose warp, maps and filter for the least error within this time, milliseconds; with "
+                   "--pages, pages as well; 0: off",
            .range = {{0.0, 1e9}}},
           {.name = "--target-error",
            .target = &options.budget.target_error,

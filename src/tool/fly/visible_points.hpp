@@ -21,15 +21,17 @@ class VisiblePointsOf {
  public:
 #ifdef GNOMON_HAS_TRACE
   explicit VisiblePointsOf(const Scene& scene) : tracer_(scene) {}
-  std::vector<glm::dvec3> operator()(const Camera& camera, const Light& light) const {
-    return trace::seen_points(tracer_, camera, light);
+  /// Of so many columns and rows of the picture.
+  std::vector<glm::dvec3> operator()(const Camera& camera, const Light& light, int columns = 64,
+                                     int rows = 36) const {
+    return trace::seen_points(tracer_, camera, light, columns, rows);
   }
 
  private:
   trace::Tracer tracer_;
 #else
   explicit VisiblePointsOf(const Scene&) {}
-  std::vector<glm::dvec3> operator()(const Camera&, const Light&) const {
+  std::vector<glm::dvec3> operator()(const Camera&, const Light&, int = 0, int = 0) const {
     return {};
   }
 #endif

@@ -109,6 +109,53 @@ TEST(Picks, frames_of_a_flight_need_the_same_techniques) {
   EXPECT_THROW((void)tool::picks_of({&views[0], &views[1]}, some_model()), std::runtime_error);
 }
 
+TEST(Picks, pages_are_picked_where_they_cost_less) {
+  const TemporaryFolder folder;
+  const Finished swept = run_gnomon({"compare",     "builtin:hangar",
+                                     "--warps",     "none,lispsm",
+                                     "--cascades",  "1",
+                                     "--map-sizes", "512,1024",
+                                     "--filters",   "hard",
+                                     "--frames",    "1",
+                                     "--size",      "96x54",
+                                     "--rounds",    "1",
+                                     "--pages",     "all",
+                                     "--context",   "osmesa",
+                                     "--out",       folder.path().string()});
+  ASSERT_EQ(swept.exit_code, 0) << swept.err;
+  const std::vector<tool::View> views = tool::views_of(report::read_rows(folder.path()));
+  ASSERT_EQ(views.size(), 1u);
+  // Four maps, and pages of either size by each policy, but by queried ones, which take several frames.
+  EXPECT_EQ(views[0].rows.size(), 4u + 2u * (all_page_policies().size() - 1u));
+  const tool::Replanned replanned(views[0]);
+  for (const report::Row& row : views[0].rows) {
+    const report::Observation o = replanned.observe(row);
+    EXPECT_EQ(o.pages, !row.technique.pages.empty());
+    EXPECT_GT(o.expected, 0.3 * o.wrong) << row.technique.name();
+    EXPECT_LT(o.expected, 3.0 * o.wrong) << row.technique.name();
+    // The renderer draws no page that it can do without.
+    if (o.pages) {
+      EXPECT_NEAR(o.work.maps, row.costs.maps, 0.25 * row.costs.maps) << row.technique.name();
+    }
+  }
+  report::StoredCostModel model = some_model();
+  model.filters.resize(1);
+  model.pages = model;
+  for (const bool pages_are_dear : {false, true}) {
+    model.pages.drawing.per_map = pages_are_dear ? 1e6 : 1e-6;
+    model.drawing.per_map = pages_are_dear ? 1.0 : 1e6;
+    const tool::FlightPicks picks = tool::picks_of({&views[0]}, model);
+    ASSERT_EQ(picks.of_frames.size(), 6u);
+    for (const tool::Pick& pick : picks.of_frames) {
+      if (pick.request.milliseconds > 0.0) {
+        EXPECT_NE(pick.technique.starts_with("pages "), pages_are_dear) << pick.technique;
+      }
+    }
+  }
+  model.pages.filters.clear();
+  EXPECT_THROW((void)tool::picks_of({&views[0]}, model), std::runtime_error);
+}
+
 TEST(Calibrate, shows_the_first_frames_pick_over_its_flight) {
   const TemporaryFolder folder;
   const std::string model = (folder.path() / "model.json").string();

@@ -115,6 +115,35 @@ TEST_F(Flythrough, chooses_maps_that_keep_to_a_share_of_misclassified_pixels) {
   EXPECT_LT(few, many);
 }
 
+TEST_F(Flythrough, chooses_among_maps_and_pages) {
+  const auto fly = [&](const std::string& more) {
+    return run("--frames 1 --size 192x108 --context osmesa --filter hard --page-size 64 " + more);
+  };
+  // Pages take fewer texels where shadows lie near and far, and one map where they lie evenly.
+  const Outcome pages = fly("builtin:city --pages resolution --target-error 0.04");
+  ASSERT_EQ(pages.code, 0) << pages.error;
+  EXPECT_NE(pages.out.find("technique: pages of 64 for m "), std::string::npos) << pages.out;
+  EXPECT_NE(pages.out.find("kept from earlier frames"), std::string::npos) << "and draws them";
+  const Outcome maps = fly("builtin:hangar --pages resolution --target-error 0.03");
+  ASSERT_EQ(maps.code, 0) << maps.error;
+  EXPECT_EQ(maps.out.find("technique: pages"), std::string::npos) << maps.out;
+  EXPECT_EQ(maps.out.find("kept from earlier frames"), std::string::npos);
+  const Outcome reads = fly("builtin:fence --pages picture --target-error 0.01");
+  EXPECT_EQ(reads.code, 2);
+  EXPECT_NE(reads.error.find("--pages picture: reads what was drawn"), std::string::npos) << reads.error;
+  const fs::path model = out() / "maps_alone.json";
+  std::ofstream(model) << R"({"schema": "gnomon.cost.4", "machine": "m",
+    "mean_relative_error": {"depth": 0, "prefilter": 0, "lookup": 0}, "frame_ms": 0, "ms_per_map": 0,
+    "ms_per_megatexel": 1, "ms_per_kilodraw": 0, "ms_per_megatriangle": 0, "ms_per_megatexel_tested": 0,
+    "filters": [{"name": "hard", "prefilter_ms_per_map": 0, "prefilter_ms_per_megatexel": 0,
+      "lookup_ms_per_megapixel": 1, "bytes_per_texel": 4, "error_ratio": 1, "error_power": 1,
+      "kernel_texels": 0}]})";
+  const Outcome none =
+      fly("builtin:fence --pages resolution --target-error 0.01 --cost-model " + model.string());
+  EXPECT_EQ(none.code, 2);
+  EXPECT_NE(none.error.find("maps_alone.json: has no costs of pages"), std::string::npos) << none.error;
+}
+
 TEST_F(Flythrough, takes_transitions_between_maps_by_name_and_refuses_unknown_ones) {
   const char* scene = "builtin:fence --frames 1 --size 96x64 --map-size 128 --cascades 3 --transition ";
   std::vector<std::string> pictures;
