@@ -273,27 +273,38 @@ void print_table(int maps, const std::vector<SeenView>& views, bool list) {
     }
   }
   std::printf("\n%d of %d^2, %zu views\n", maps, maps == 1 ? 1024 : 512, views.size());
-  std::printf("%-16s %8s %9s %6s %6s %9s %6s %9s\n", "setting", "mean", "geo mean", "worst", "best",
-              "mean loss", "worst", "us");
+  std::printf("%-16s %8s %9s %6s %6s %9s %6s %9s %6s %9s\n", "setting", "mean", "geo mean", "worst", "best",
+              "mean loss", "worst", "to alike", "worst", "us");
+  /// Loss to the best of the candidates, or of those that are given as much; -100 %: there are none.
+  struct Loss {
+    double sum = 0.0, worst = 0.0;
+    void add(double lost) {
+      sum += lost;
+      worst = std::max(worst, lost);
+    }
+  };
   for (std::size_t s = 0; s < all.size(); ++s) {
-    double mean = 0.0, logarithm = 0.0, worst = 0.0, best = 1e9, loss = 0.0, worst_loss = 0.0;
+    double mean = 0.0, logarithm = 0.0, worst = 0.0, best = 1e9;
+    Loss loss, alike;
     for (std::size_t v = 0; v < views.size(); ++v) {
-      double least = std::numeric_limits<double>::infinity();
+      double least = std::numeric_limits<double>::infinity(), least_alike = least;
       for (std::size_t other = 0; other < all.size(); ++other) {
-        if (all[other].candidate()) least = std::min(least, error[v][other]);
+        if (!all[other].candidate()) continue;
+        least = std::min(least, error[v][other]);
+        if (all[other].given == all[s].given) least_alike = std::min(least_alike, error[v][other]);
       }
-      const double ratio = error[v][s] / error[v][0], lost = error[v][s] / least - 1.0;
+      const double ratio = error[v][s] / error[v][0];
       mean += error[v][s];
       logarithm += std::log(ratio);
       worst = std::max(worst, ratio);
       best = std::min(best, ratio);
-      loss += lost;
-      worst_loss = std::max(worst_loss, lost);
+      loss.add(error[v][s] / least - 1.0);
+      alike.add(error[v][s] / least_alike - 1.0);
     }
     const auto count = static_cast<double>(views.size());
-    std::printf("%-16s %8.3f %9.3f %6.2f %6.2f %8.1f%% %5.0f%% %9.1f\n", all[s].name, mean / count,
-                std::exp(logarithm / count), worst, best, 100.0 * loss / count, 100.0 * worst_loss,
-                microseconds[s]);
+    std::printf("%-16s %8.3f %9.3f %6.2f %6.2f %8.1f%% %5.0f%% %8.1f%% %5.0f%% %9.1f\n", all[s].name,
+                mean / count, std::exp(logarithm / count), worst, best, 100.0 * loss.sum / count,
+                100.0 * loss.worst, 100.0 * alike.sum / count, 100.0 * alike.worst, microseconds[s]);
   }
   if (!list) return;
   for (std::size_t v = 0; v < views.size(); ++v) {

@@ -16,8 +16,8 @@ void require_cost(double value) {
 void check(const gnomon::report::StoredCostModel& model) {
   const gnomon::DrawingCosts& d = model.drawing;
   for (const double cost :
-       {d.per_frame, d.per_map, d.per_megatexel, d.per_kilodraw, d.per_megatriangle, d.per_megatexel_tested,
-        model.depth_error, model.prefilter_error, model.lookup_error})
+       {d.per_frame, d.per_map, d.per_megatexel, d.per_kilodraw, d.per_megatriangle, d.per_megatexel_covered,
+        d.per_megatexel_tested, model.depth_error, model.prefilter_error, model.lookup_error})
     require_cost(cost);
   std::vector<gnomon::FilterCost> costs;
   const gnomon::CostModel view = model.view(costs);

@@ -33,8 +33,10 @@ std::vector<Observation> made_observations() {
     o.work.megatexels_tested = i % 5 == 0 ? 0.3 * o.work.megatexels : 0.0;
     o.megapixels = draw(0.05, 0.5);
     o.bytes_per_texel = i % 2 == 0 ? 4.0 : 12.0;
+    o.work.megatexels_covered = static_cast<double>(i % 7) / 3.0;
     o.depth_ms = 0.5 + 0.25 * o.work.maps + 3.0 * o.work.megatexels + 1.5 * o.work.kilodraws +
-                 40.0 * o.work.megatriangles + 9.0 * o.work.megatexels_tested;
+                 40.0 * o.work.megatriangles + 2.0 * o.work.megatexels_covered +
+                 9.0 * o.work.megatexels_tested;
     o.prefilter_ms = i % 2 == 0 ? 0.0 : 0.1 * o.work.maps + 7.0 * o.work.megatexels;
     o.lookup_ms = (i % 2 == 0 ? 20.0 : 50.0) * o.megapixels;
     o.expected = draw(0.003, 0.1);
@@ -56,6 +58,7 @@ TEST(CostModel, fit_finds_the_costs_that_made_the_times) {
   EXPECT_NEAR(model.drawing.per_megatexel, 3.0, 1e-4);
   EXPECT_NEAR(model.drawing.per_kilodraw, 1.5, 1e-3);
   EXPECT_NEAR(model.drawing.per_megatriangle, 40.0, 1e-2);
+  EXPECT_NEAR(model.drawing.per_megatexel_covered, 2.0, 1e-3);
   EXPECT_NEAR(model.drawing.per_megatexel_tested, 9.0, 1e-3);
   EXPECT_LT(model.depth_error, 1e-4);
   ASSERT_EQ(model.filters.size(), 2u);
@@ -233,7 +236,7 @@ TEST(CostModel, a_file_that_is_none_is_refused_by_name) {
   const auto file = folder.path() / "model.json";
   const std::string deep(1000, '[');
   for (const char* text :
-       {"", "{}", "[1]", "{\"schema\":\"gnomon.cost.3\"}", "{\"schema\":\"gnomon.cost.4\"}", deep.c_str()}) {
+       {"", "{}", "[1]", "{\"schema\":\"gnomon.cost.4\"}", "{\"schema\":\"gnomon.cost.5\"}", deep.c_str()}) {
     std::ofstream(file) << text;
     try {
       (void)load_cost_model(file);

@@ -36,21 +36,23 @@ inline constexpr std::size_t kMaxKernels = 8;
 struct CasterWork {
   std::uint32_t triangles = 0;  ///< of the caster
   bool alpha_tested = false;    ///< holes cut by a texture, which is read at every covered texel
+  double area_world = 0.0;      ///< of its triangles, square world units; 0: as if they covered its box once
 };
 
 /// Work of drawing the depths of all maps, or pages, of a plan.
 struct PlanWork {
   double maps = 0.0, megatexels = 0.0;          ///< counts, in the unit of their name; a page counts as a map
   double kilodraws = 0.0, megatriangles = 0.0;  ///< likewise
-  /// A map's, times the share of alpha-tested triangles among all that it draws.
-  double megatexels_tested = 0.0;
+  /// Texels that casters cover, each as often as it is covered. Half of a caster's area faces across the
+  /// light in the mean over all directions. Alpha-tested casters count apart.
+  double megatexels_tested = 0.0, megatexels_covered = 0.0;
 };
 
 /// Milliseconds for each unit of PlanWork, and for the frame.
 struct DrawingCosts {
-  double per_frame = 0.0, per_map = 0.0, per_megatexel = 0.0;  ///< milliseconds
-  double per_kilodraw = 0.0, per_megatriangle = 0.0;           ///< milliseconds
-  double per_megatexel_tested = 0.0;                           ///< milliseconds
+  double per_frame = 0.0, per_map = 0.0, per_megatexel = 0.0;      ///< milliseconds
+  double per_kilodraw = 0.0, per_megatriangle = 0.0;               ///< milliseconds
+  double per_megatexel_tested = 0.0, per_megatexel_covered = 0.0;  ///< milliseconds
 };
 
 /// Cost of a frame's shadows on some machine: a sum over the drawn work. `gnomon calibrate` measures it.

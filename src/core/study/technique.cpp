@@ -6,13 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "lanes/casters.hpp"
 #include "lanes/elementary.hpp"
 
 namespace gnomon {
 namespace {
 
-constexpr double kMega = 1e6, kKilo = 1e3;
+constexpr double kMega = 1e6;
 /// How much less counts as a trade.
 constexpr double kTrade = 0.8;
 
@@ -43,9 +42,10 @@ bool is_limit(double value) noexcept {
   return value >= 0.0 && value <= kLargest;
 }
 
-std::array<double, 6> all_of(const DrawingCosts& costs) noexcept {
-  return {costs.per_frame,    costs.per_map,          costs.per_megatexel,
-          costs.per_kilodraw, costs.per_megatriangle, costs.per_megatexel_tested};
+std::array<double, 7> all_of(const DrawingCosts& costs) noexcept {
+  return {costs.per_frame,           costs.per_map,          costs.per_megatexel,
+          costs.per_kilodraw,        costs.per_megatriangle, costs.per_megatexel_covered,
+          costs.per_megatexel_tested};
 }
 
 /// The different kernels of filters.
@@ -241,67 +241,13 @@ PlanOptions options_of(const PlanOptions& base, const Technique& t) noexcept {
   return options;
 }
 
-/// Calls `use` with the index of each caster that the map needs.
-template <typename Use>
-void for_each_caster(const ShadowMap& map, const Boxes& casters, Use&& use) noexcept {
-  if (const CasterSet* set = casters.set(); set != nullptr && set->size() > 0) {
-    for (std::size_t begin = 0; begin < set->size(); begin += kLanes) {
-      const CasterBlock& block = set->block(0, begin / kLanes);
-      std::uint32_t kept = block.occupied;
-      for (int k = 0; k < map.cull_plane_count && kept != 0; ++k)
-        kept &= ~lanes<Ask::outside>(map.cull_planes[static_cast<std::size_t>(k)], block);
-      for_each_bit(kept, [&](std::size_t lane) { use(set->index(begin + lane)); });
-    }
-  }
-  constexpr std::size_t kBlock = 256;
-  std::array<std::uint32_t, kBlock> kept;
-  const std::span<const Box> list = casters.list();
-  for (std::size_t begin = 0; begin < list.size(); begin += kBlock) {
-    const std::size_t size = std::min(kBlock, list.size() - begin);
-    const std::size_t count = cull_casters(map, list.subspan(begin, size), kept);
-    for (std::size_t i = 0; i < count; ++i) use(begin + kept[i]);
-  }
-}
-
-/// Adds the work of drawing one map, or page.
-void add_work(const ShadowMap& map, const SceneBounds& bounds, std::span<const CasterWork> casters,
-              PlanWork& work) noexcept {
-  std::size_t draws = 0;
-  double triangles = 0.0, tested = 0.0;
-  for_each_caster(map, bounds.casters, [&](std::size_t caster) {
-    ++draws;
-    if (caster >= casters.size()) return;
-    triangles += casters[caster].triangles;
-    tested += casters[caster].alpha_tested ? casters[caster].triangles : 0.0;
-  });
-  const double megatexels = static_cast<double>(map.width) * map.height / kMega;
-  work.maps += 1.0;
-  work.megatexels += megatexels;
-  work.kilodraws += static_cast<double>(draws) / kKilo;
-  work.megatriangles += triangles / kMega;
-  work.megatexels_tested += triangles > 0.0 ? tested / triangles * megatexels : 0.0;
-}
-
 }  // namespace
-
-PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,
-                      std::span<const CasterWork> casters) noexcept {
-  PlanWork work;
-  for (const ShadowMap& map : plan.maps()) add_work(map, bounds, casters, work);
-  return work;
-}
-
-PlanWork planned_work(const PagePlan& plan, const SceneBounds& bounds,
-                      std::span<const CasterWork> casters) noexcept {
-  PlanWork work;
-  for (const Page& page : plan.pages) add_work(page_map(plan, page), bounds, casters, work);
-  return work;
-}
 
 double predicted_ms(const DrawingCosts& costs, const FilterCost& filter, const PlanWork& work,
                     double megapixels) noexcept {
   return costs.per_frame + costs.per_map * work.maps + costs.per_megatexel * work.megatexels +
          costs.per_kilodraw * work.kilodraws + costs.per_megatriangle * work.megatriangles +
+         costs.per_megatexel_covered * work.megatexels_covered +
          costs.per_megatexel_tested * work.megatexels_tested + filter.prefilter_ms_per_map * work.maps +
          filter.prefilter_ms_per_megatexel * work.megatexels + filter.lookup_ms_per_megapixel * megapixels;
 }

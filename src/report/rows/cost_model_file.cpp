@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kCostSchema = "gnomon.cost.4";
+constexpr const char* kCostSchema = "gnomon.cost.5";
 constexpr std::uint64_t kMaxBytes = 1 << 20;  // larger than any cost model
 constexpr std::pair<const char*, double DrawingCosts::*> kDrawing[] = {
     {"frame_ms", &DrawingCosts::per_frame},
@@ -20,6 +20,7 @@ constexpr std::pair<const char*, double DrawingCosts::*> kDrawing[] = {
     {"ms_per_megatexel", &DrawingCosts::per_megatexel},
     {"ms_per_kilodraw", &DrawingCosts::per_kilodraw},
     {"ms_per_megatriangle", &DrawingCosts::per_megatriangle},
+    {"ms_per_megatexel_covered", &DrawingCosts::per_megatexel_covered},
     {"ms_per_megatexel_tested", &DrawingCosts::per_megatexel_tested}};
 
 /// A cost: neither below zero nor so large that sums over techniques overflow.

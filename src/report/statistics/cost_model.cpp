@@ -191,14 +191,15 @@ StoredCosts fit_alike(std::span<const Observation> observations) {
   std::map<std::string, const Observation*> any;         // of each filter
   for (const Observation& o : observations) {
     const PlanWork& w = o.work;
-    depth.add({1.0, w.maps, w.megatexels, w.kilodraws, w.megatriangles, w.megatexels_tested},
-              o.frame_ms + o.depth_ms);
+    depth.add(
+        {1.0, w.maps, w.megatexels, w.kilodraws, w.megatriangles, w.megatexels_tested, w.megatexels_covered},
+        o.frame_ms + o.depth_ms);
     filters[o.filter].first.add({w.maps, w.megatexels}, o.prefilter_ms);
     filters[o.filter].second.add({o.megapixels}, o.lookup_ms);
     any[o.filter] = &o;
   }
   const std::vector<double> x = least_squares(depth.rows, depth.values);
-  model.drawing = {x[0], x[1], x[2], x[3], x[4], x[5]};
+  model.drawing = {x[0], x[1], x[2], x[3], x[4], x[5], x[6]};
   model.depth_error = relative_error(depth.rows, depth.values, x);
   const ErrorLaw law(observations);
   const auto count = static_cast<double>(filters.size());

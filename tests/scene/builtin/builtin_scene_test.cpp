@@ -226,6 +226,14 @@ TEST(BuiltinScenes, the_work_of_casters_is_that_of_their_meshes_and_crowns_are_t
     crowns += trees.materials[static_cast<std::size_t>(material)].base_color_image == 0 ? 1u : 0u;
   }
   EXPECT_EQ(triangles, trees.triangle_count());
+  // A box has the area of its six sides.
+  const Scene street = load_builtin("street");
+  const std::vector<CasterWork> boxes = caster_work(street);
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const glm::dvec3 side = street.instances[i].bounds_world.max - street.instances[i].bounds_world.min;
+    if (boxes[i].triangles != 12) continue;
+    EXPECT_NEAR(boxes[i].area_world, 2.0 * (side.x * side.y + side.y * side.z + side.z * side.x), 1e-3);
+  }
   EXPECT_EQ(tested, crowns);
   EXPECT_GT(tested, 0u);
   EXPECT_LT(tested, work.size());
