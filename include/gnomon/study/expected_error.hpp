@@ -60,11 +60,15 @@ inline constexpr double kMaxKernelTexels = 33.0;
 /// that. An average is wrong where it is on the other side of one half. The picture shows no edge between its
 /// pixels, and averages over less than a pixel look too good. So they count by half, and one texel by the
 /// other half.
+///
+/// `every`: along each axis one of so many pixels is counted and stands for the others, 1: each. A picture as
+/// fine as the texels then takes no longer than a coarse one. More than 4096 counts as that, and less than 1
+/// as 1.
 [[nodiscard]] ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow,
-                                           double kernel_texels = 0.0) noexcept;
+                                           double kernel_texels = 0.0, int every = 1) noexcept;
 /// The same in the pages that serve the points of the picture. A point without a page is drawn as lit.
 [[nodiscard]] ExpectedError expected_error(const PagePlan& plan, const ShadowPicture& shadow,
-                                           double kernel_texels = 0.0) noexcept;
+                                           double kernel_texels = 0.0, int every = 1) noexcept;
 
 /// Points of the surfaces along the shadow's edges. A pixel is on an edge where one of its four neighbours
 /// shows the same surface with another shadow. A plan for them (View::points_world) has its texels where they

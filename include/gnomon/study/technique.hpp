@@ -133,9 +133,10 @@ struct TechniqueChoice {
 /// estimates its cost with every filter. For 320 x 180 pixels that takes some ten milliseconds a plan. So
 /// call it when a scene, a view or a light is new, not in every frame. Pure, allocates nothing, never throws.
 ///
-/// `shadow`: of the last frame or of rays, and of the same view. Fewer pixels than the frame's take less
-/// time, but texels finer than they are then count too little. `base` gives all options that are not chosen.
-/// `casters`: one entry per box of bounds.casters, in their order; missing ones cost nothing.
+/// `shadow`: of the last frame or of rays, and of the same view. It should be as fine as the texels. A large
+/// picture takes no longer: at most 65 536 of its pixels are counted, spread evenly. `base` gives all options
+/// that are not chosen. `casters`: one entry per box of bounds.casters, in their order; missing ones cost
+/// nothing.
 [[nodiscard]] TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow,
                                                const Light& light, const SceneBounds& bounds,
                                                std::span<const CasterWork> casters, const TechniqueSet& among,
@@ -145,6 +146,9 @@ struct TechniqueChoice {
 /// Milliseconds of drawing maps, filtering them, and looking up so many million pixels.
 [[nodiscard]] double predicted_ms(const DrawingCosts& costs, const FilterCost& filter, const PlanWork& work,
                                   double megapixels) noexcept;
+
+/// `every` of expected_error by which choose_technique counts a picture: at most 65 536 of its pixels.
+[[nodiscard]] int pixels_between(const ShadowPicture& shadow) noexcept;
 
 /// The work of drawing the plan's maps.
 [[nodiscard]] PlanWork planned_work(const ShadowPlan& plan, const SceneBounds& bounds,

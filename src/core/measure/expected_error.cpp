@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
 
 #include "geometry/matrix.hpp"
@@ -19,6 +20,8 @@ constexpr double kOffPlane = 0.02;
 constexpr double kGrazing = 1e-3;
 /// Steps of a pixel beyond which nothing is in any picture: a texel that the plane meets nowhere.
 constexpr double kMostSteps = 1e9;
+/// The pixel that stands for a cell is drawn from 16 bits.
+constexpr int kMostEvery = 1 << 12;
 
 /// The pictures, with what a camera makes of their pixels.
 class Pixels {
@@ -257,16 +260,34 @@ double lit_over(const Pixels& pixels, const SurfacePlane& plane, const TexelsOnP
   return weights >= least ? sum / weights : -1.0;
 }
 
+/// Which pixel of a square cell of pixels stands for it: other ones in cells side by side, so that no edge
+/// lies along them.
+struct Standing {
+  int right, down;
+};
+Standing standing_in(int column, int row, int side) noexcept {
+  std::uint32_t h =
+      static_cast<std::uint32_t>(column) * 0x9E3779B1u ^ static_cast<std::uint32_t>(row) * 0x85EBCA77u;
+  h ^= h >> 15;
+  h *= 0x2C1B3C6Du;
+  h ^= h >> 12;
+  const auto cells = static_cast<std::uint32_t>(side);
+  return {static_cast<int>(h % cells), static_cast<int>((h >> 16) % cells)};
+}
+
 /// `serving`: the map, or the level of pages, whose texels a point at a view depth is compared with; nullptr:
 /// none, and it is drawn as lit.
 template <class Serving>
 ExpectedError expected_over(const ShadowPicture& shadow, const BiasOptions& bias, double kernel_texels,
-                            const Serving& serving) noexcept {
+                            int every, const Serving& serving) noexcept {
   const Pixels pixels(shadow);
   const double half_side = kernel_texels > 0.0 ? min_of(kernel_texels, kMaxKernelTexels) : 0.0;
+  const int side = std::clamp(every, 1, kMostEvery);
   double counted = 0.0, known = 0.0, wrong = 0.0;
-  for (int y = 0; y < pixels.height(); ++y) {
-    for (int x = 0; x < pixels.width(); ++x) {
+  for (int row = 0; row < pixels.height(); row += side) {
+    for (int column = 0; column < pixels.width(); column += side) {
+      const Standing standing = standing_in(column, row, side);
+      const int x = column + standing.right, y = row + standing.down;
       if (!pixels.counts(x, y)) continue;
       counted += 1.0;
       const double depth = pixels.depth(x, y), lit = pixels.lit(x, y);
@@ -299,25 +320,26 @@ ExpectedError expected_over(const ShadowPicture& shadow, const BiasOptions& bias
       wrong += 0.5 * (of_texel + of_mean);
     }
   }
-  return {known > 0.0 ? wrong * (counted / known) : 0.0, counted};
+  const double pixels_each = static_cast<double>(side) * side;
+  return {known > 0.0 ? pixels_each * wrong * (counted / known) : 0.0, pixels_each * counted};
 }
 
 }  // namespace
 
-ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow,
-                             double kernel_texels) noexcept {
-  return expected_over(shadow, plan.bias, kernel_texels,
+ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow, double kernel_texels,
+                             int every) noexcept {
+  return expected_over(shadow, plan.bias, kernel_texels, every,
                        [&](const glm::dvec3& point, double depth) -> const ShadowMap* {
                          const int map = map_serving(plan, point, depth);
                          return map < 0 ? nullptr : &plan.maps()[static_cast<std::size_t>(map)];
                        });
 }
 
-ExpectedError expected_error(const PagePlan& plan, const ShadowPicture& shadow,
-                             double kernel_texels) noexcept {
+ExpectedError expected_error(const PagePlan& plan, const ShadowPicture& shadow, double kernel_texels,
+                             int every) noexcept {
   // A page has the texels of its level.
   return expected_over(
-      shadow, plan.bias, kernel_texels, [&](const glm::dvec3& point, double) -> const ShadowMap* {
+      shadow, plan.bias, kernel_texels, every, [&](const glm::dvec3& point, double) -> const ShadowMap* {
         const int page = page_serving(plan, point);
         return page < 0 ? nullptr : &plan.levels[plan.pages[static_cast<std::size_t>(page)].level];
       });

@@ -124,7 +124,7 @@ class Choosing {
     planned.work = work;
     const std::span<const double> texels = kernels_.texels();
     for (std::size_t i = 0; i < texels.size(); ++i)
-      planned.wrong[i] = expected_error(plan, shadow, texels[i]).share();
+      planned.wrong[i] = expected_error(plan, shadow, texels[i], pixels_between(shadow)).share();
     tried_ += filters_of(technique).size();
   }
   [[nodiscard]] int tried() const noexcept { return static_cast<int>(tried_); }
@@ -242,6 +242,12 @@ PlanOptions options_of(const PlanOptions& base, const Technique& t) noexcept {
 }
 
 }  // namespace
+
+int pixels_between(const ShadowPicture& shadow) noexcept {
+  constexpr double kMostCounted = 65536.0;
+  const double pixels = static_cast<double>(shadow.mask.size());
+  return static_cast<int>(std::ceil(std::sqrt(std::max(pixels / kMostCounted, 1.0))));
+}
 
 double predicted_ms(const DrawingCosts& costs, const FilterCost& filter, const PlanWork& work,
                     double megapixels) noexcept {

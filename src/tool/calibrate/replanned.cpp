@@ -8,6 +8,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "fine_picture.hpp"
+
 namespace gnomon::tool {
 namespace {
 
@@ -41,16 +43,6 @@ double averaged_texels(const render::FilterSettings& filter) noexcept {
 bool compares(const render::FilterSettings& filter) noexcept {
   const render::FilterInfo& info = filter.filter->info;
   return info.reads == render::MapRead::depth && info.penumbra_radius_world == nullptr;
-}
-
-/// Texels may be finer than the frame's pixels, and shadows narrower: a small picture shows too few of their
-/// errors.
-Camera finer(Camera camera) noexcept {
-  constexpr int kFiner = 2, kFineEnough = 1280;
-  if (camera.width * kFiner > kFineEnough) return camera;
-  camera.width *= kFiner;
-  camera.height *= kFiner;
-  return camera;
 }
 
 /// Of a frame's pixels, as a renderer gives them: from the camera, with the view depth; 0 where there is sky.
@@ -112,7 +104,7 @@ Replanned::Replanned(const View& view)
       camera_(scene_.camera(view.rows.front().frame, view.rows.front().frames, view.rows.front().width,
                             view.rows.front().height)) {
   const trace::Tracer tracer(scene_.scene());
-  shadow_ = trace::seen_shadow(tracer, finer(camera_), scene_.light());
+  shadow_ = trace::seen_shadow(tracer, fine_picture(camera_), scene_.light());
   const trace::SeenShadow seen = trace::seen_shadow(tracer, camera_, scene_.light());
   surfaces_ = visible_surfaces(positions_of(seen), nullptr, camera_);
   // What is turned away from the light is drawn dark.
@@ -152,7 +144,8 @@ report::Observation Replanned::observe(const report::Row& row) const {
   o.pixels = static_cast<double>(row.errors.pixels);
   const auto predict = [&](const auto& plan) {
     o.work = planned_work(plan, scene_.bounds(), scene_.work());
-    o.expected = expected_error(plan, shadow_.picture(), o.kernel_texels).share();
+    const ShadowPicture shadow = shadow_.picture();
+    o.expected = expected_error(plan, shadow, o.kernel_texels, pixels_between(shadow)).share();
   };
   if (!o.pages) {
     predict(make_plan(camera_, scene_.light(), scene_.bounds(), entry.plan));
@@ -192,7 +185,7 @@ Replanned::Choice Replanned::choose(const View& view, const Budget& budget,
         entry.plan.warp.warp == nullptr || !entry.plan.warp.shape->affine)
       throw std::runtime_error(row.technique.name() +
                                ": the planner chooses among named warps with linear texels, split by depth");
-    maps = &row.technique;
+    if (maps == nullptr) maps = &row.technique;
     once(warps, entry.plan.warp.warp);
     once(splits, entry.plan.split.scheme);
     once(cascades, entry.plan.cascades);
@@ -206,7 +199,7 @@ Replanned::Choice Replanned::choose(const View& view, const Budget& budget,
   const TechniqueChoice choice =
       choose_technique(camera_, shadow_.picture(), scene_.light(), scene_.bounds(), scene_.work(),
                        {warps, splits, cascades, sizes, {pages, surfaces_.points, feedback_, memory}}, budget,
-                       costs, sweep_entry(view.rows.front().technique).plan);
+                       costs, sweep_entry(*maps).plan);
   if (choice.status == PlanStatus::invalid_input)
     throw std::runtime_error(view.name + ": no technique for " + std::string(choice.invalid_field));
   if (choice.status != PlanStatus::ok) return {choice.status};

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "fine_picture.hpp"
 #include "flight.hpp"
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
@@ -20,15 +21,6 @@ namespace {
 
 /// Frames that are looked at: a flight changes slowly.
 constexpr int kMaxPlanFrames = 16;
-
-/// The camera with as many pixels as are worth the time: as many are counted for each technique.
-Camera smaller(Camera camera) noexcept {
-  constexpr int kMaxWidth = 320;
-  const double scale = std::min(1.0, static_cast<double>(kMaxWidth) / camera.width);
-  camera.width = std::max(static_cast<int>(camera.width * scale), 1);
-  camera.height = std::max(static_cast<int>(camera.height * scale), 1);
-  return camera;
-}
 
 /// Filters that the program knows, with what they cost; without a model the one that was given, at no cost.
 struct Known {
@@ -134,7 +126,7 @@ void choose_technique_of(Options& options, const Flight& flight) {
     // The middle of each of `frames` equal parts.
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
     const Camera camera = camera_of(options, flight, frame);
-    const auto shadow = seen_shadow(smaller(camera), light);
+    const auto shadow = seen_shadow(fine_picture(camera), light);
     TechniqueSet among;
     std::vector<glm::dvec3> points;
     std::vector<std::byte> memory;

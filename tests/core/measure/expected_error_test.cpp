@@ -235,6 +235,29 @@ TEST(ExpectedError, pages_of_one_level_err_as_one_map_of_its_texels) {
   }
 }
 
+TEST(ExpectedError, some_pixels_stand_for_all_evenly) {
+  // Edges along rows, along columns and aslant: other pixels of each cell, so that none is missed.
+  for (const double turned : {0.0, 0.7, 1.5707963}) {
+    const Camera upright =
+        orthographic_camera({0.4, 10, 0.4}, {0, -1, 0}, {0, 0, -1}, 10.0, 1.6, 1.0, 20.0, kWidth, kHeight);
+    const Floor floor(upright, turned);
+    const ShadowPlan plan = floor.plan();
+    for (const double kernel : {0.0, 1.5}) {
+      const ExpectedError all = expected_error(plan, floor.picture(), kernel);
+      ASSERT_GT(all.wrong_pixels, 50.0);
+      for (const int every : {2, 3, 4}) {
+        const ExpectedError some = expected_error(plan, floor.picture(), kernel, every);
+        EXPECT_NEAR(some.counted_pixels, all.counted_pixels, 0.02 * all.counted_pixels) << every;
+        EXPECT_NEAR(some.wrong_pixels, all.wrong_pixels, 0.25 * all.wrong_pixels) << every << ' ' << turned;
+        EXPECT_NE(some.wrong_pixels, all.wrong_pixels);
+      }
+      EXPECT_EQ(expected_error(plan, floor.picture(), kernel, 0).wrong_pixels, all.wrong_pixels);
+      EXPECT_EQ(expected_error(plan, floor.picture(), kernel, -7).wrong_pixels, all.wrong_pixels);
+      EXPECT_LE(expected_error(plan, floor.picture(), kernel, 1 << 30).counted_pixels, 4096.0 * 4096.0);
+    }
+  }
+}
+
 TEST(ExpectedError, points_without_a_page_are_lit) {
   const Floor floor(from_above(), 0.6);
   const double dark = static_cast<double>(std::count(floor.mask.begin(), floor.mask.end(), 0.0f));

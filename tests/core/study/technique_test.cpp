@@ -175,6 +175,24 @@ TEST(Technique, each_filter_errs_as_its_kernel_is_expected_to) {
   }
 }
 
+TEST(Technique, a_large_picture_takes_no_more_pixels_than_a_small_one) {
+  Plain plain;
+  const int size[] = {512}, one[] = {1};
+  plain.among.map_sizes = size;
+  plain.among.cascades = one;
+  plain.budget.alike = 0.0;
+  EXPECT_EQ(pixels_between(plain.shadow()), 1);
+  plain.picture.width = 600;
+  plain.picture.height = 400;
+  plain.see(200.0);
+  EXPECT_EQ(pixels_between(plain.shadow()), 2);
+  const TechniqueChoice choice = plain.choose();
+  ASSERT_EQ(choice.status, PlanStatus::ok);
+  const double share = expected_error(choice.plan, plain.shadow(), 0.0, 2).share();
+  EXPECT_EQ(choice.chosen.error, kFilters[choice.chosen.filter].error_ratio * share);
+  EXPECT_NEAR(share, expected_error(choice.plan, plain.shadow()).share(), 0.1 * share);
+}
+
 TEST(Technique, work_is_what_culling_leaves_for_each_map) {
   const Plain plain;
   PlanOptions options;

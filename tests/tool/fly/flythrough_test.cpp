@@ -124,7 +124,7 @@ TEST_F(Flythrough, chooses_among_maps_and_pages) {
   ASSERT_EQ(pages.code, 0) << pages.error;
   EXPECT_NE(pages.out.find("technique: pages of 64 for m "), std::string::npos) << pages.out;
   EXPECT_NE(pages.out.find("kept from earlier frames"), std::string::npos) << "and draws them";
-  const Outcome maps = fly("builtin:hangar --pages resolution --target-error 0.03");
+  const Outcome maps = fly("builtin:hangar --pages resolution --target-error 0.06");
   ASSERT_EQ(maps.code, 0) << maps.error;
   EXPECT_EQ(maps.out.find("technique: pages"), std::string::npos) << maps.out;
   EXPECT_EQ(maps.out.find("kept from earlier frames"), std::string::npos);
