@@ -107,10 +107,10 @@ TEST(CostModel, pages_have_costs_and_errors_of_their_own) {
   std::vector<FilterCost> storage;
   const CostModel view = cost_model_from_text(to_text(model), "file").view(storage);
   ASSERT_EQ(view.filters.size(), 2u);
-  ASSERT_EQ(view.page_filters.size(), 2u);
-  EXPECT_EQ(view.page_drawing.per_megatexel, model.pages.drawing.per_megatexel);
+  ASSERT_EQ(view.pages.filters.size(), 2u);
+  EXPECT_EQ(view.pages.drawing.per_megatexel, model.pages.drawing.per_megatexel);
   EXPECT_EQ(view.filters[1].error_ratio, model.filters[1].cost.error_ratio);
-  EXPECT_EQ(view.page_filters[1].error_ratio, model.pages.filters[1].cost.error_ratio);
+  EXPECT_EQ(view.pages.filters[1].error_ratio, model.pages.filters[1].cost.error_ratio);
   // Without them pages are not known, and too few say nothing.
   const StoredCostModel maps = fit_costs(made_observations(), "a machine");
   EXPECT_EQ(predicted_ms(maps, all.back()), std::numeric_limits<double>::infinity());

@@ -55,12 +55,16 @@ struct DrawingCosts {
   double per_megatexel_tested = 0.0, per_megatexel_covered = 0.0;  ///< milliseconds
 };
 
-/// Cost of a frame's shadows on some machine: a sum over the drawn work. `gnomon calibrate` measures it.
-struct CostModel {
-  DrawingCosts drawing;                           ///< of depth maps
-  std::span<const FilterCost> filters;            ///< of maps, to choose from, at least one
-  DrawingCosts page_drawing = {};                 ///< of pages
-  std::span<const FilterCost> page_filters = {};  ///< of pages, to choose from, at least one where pages are
+/// Costs of the techniques of one kind: maps, or pages.
+struct TechniqueCosts {
+  DrawingCosts drawing;                      ///< of their depths
+  std::span<const FilterCost> filters = {};  ///< to choose from
+};
+
+/// Cost of a frame's shadows on some machine: a sum over the drawn work. `gnomon calibrate` measures it. The
+/// costs themselves are those of maps, with at least one filter.
+struct CostModel : TechniqueCosts {
+  TechniqueCosts pages = {};  ///< with at least one filter where TechniqueSet::pages has any
 };
 
 /// Limits; 0 is none. Without target_error the least error within them is taken, or what is alike. With it
@@ -76,15 +80,14 @@ struct Budget {
   double alike = 0.1;
 };
 
-/// Page plans among the candidates, each with every filter of CostModel::page_filters.
+/// Page plans among the candidates, each with every filter of CostModel::pages.
 struct PageSet {
   std::span<const PageOptions> options = {};  ///< candidates; none: maps alone
-  /// Of visible surfaces, as View::points_world and PageHistory::feedback have them. Maps are planned
-  /// without.
+  /// Points of visible surfaces, as View::points_world. Maps are planned without them.
   std::span<const glm::dvec3> points_world = {};
-  std::span<const std::uint8_t> feedback = {};  ///< of the points, for policies that read it
-  /// Of the caller: at least page_memory(capacity, points) bytes for each of the options, and as long-lived
-  /// as TechniqueChoice::pages.
+  std::span<const std::uint8_t> feedback = {};  ///< on the points, as PageHistory::feedback
+  /// The caller's, as long-lived as TechniqueChoice::pages: as many bytes as the largest of the options needs
+  /// by page_memory.
   std::span<std::byte> memory = {};
 };
 
@@ -104,7 +107,7 @@ struct Technique {
   SplitScheme split = SplitScheme::automatic;  ///< of the cascades
   int cascades = 0, map_size = 0;              ///< maps; texels along each side, of pages their slots
   int pages = -1;                              ///< index into PageSet::options; -1: maps
-  int filter = 0;                              ///< index into CostModel::filters, or page_filters
+  int filter = 0;                      ///< index into the filters of its kind: CostModel, or its pages
   double error = 0.0;                  ///< share of the picture's pixels that it is to misclassify, in [0,1]
   double milliseconds = 0.0;           ///< predicted, per frame
   std::int64_t texels = 0, bytes = 0;  ///< of all maps, or resident pages
@@ -115,8 +118,8 @@ struct TechniqueChoice {
   /// ok: plan and options are those of `chosen`. Otherwise the status of make_plan or plan_pages: there is
   /// nothing to choose.
   PlanStatus status = PlanStatus::invalid_input;
-  /// That of make_plan or plan_pages, or "budget", "cost_model[.filters, .page_filters]", "map_sizes",
-  /// "shadow".
+  /// That of make_plan or plan_pages, or "budget", "cost_model[.filters, .pages.filters]",
+  /// "map_sizes", "shadow".
   std::string_view invalid_field;
   bool met = false;  ///< false: nothing fits, `chosen` is the nearest to fitting
   Technique chosen;  ///< map_size 0 where status is not ok

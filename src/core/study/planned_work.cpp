@@ -63,24 +63,25 @@ Met met_by(const ShadowMap& map, const Box& box) noexcept {
   return {met.x * met.y, met.x * met.y / (whole.x * whole.y)};
 }
 
+/// What of a box lies across a direction: an area times the direction's length.
+double area_across(const glm::dvec3& direction, const glm::dvec3& side) noexcept {
+  return std::abs(direction.x) * side.y * side.z + std::abs(direction.y) * side.z * side.x +
+         std::abs(direction.z) * side.x * side.y;
+}
+
 /// Texels of the map that a caster covers, each as often as it is covered.
 double covered_texels(const ShadowMap& map, const Box& box, double area_world) noexcept {
   const glm::dvec3 middle = 0.5 * (box.min + box.max), side = box.max - box.min;
   const glm::dvec3 to_light = glm::dvec3(map.light_world) - map.light_world.w * middle;
-  const glm::dvec3 direction = safe_normalize(to_light, glm::dvec3(0.0, 1.0, 0.0));
   // What light sees of the box, in world units and in texels.
-  const double outline_world = std::abs(direction.x) * side.y * side.z +
-                               std::abs(direction.y) * side.z * side.x +
-                               std::abs(direction.z) * side.x * side.y;
+  const double outline_world = area_across(safe_normalize(to_light, glm::dvec3(0.0, 1.0, 0.0)), side);
   if (!(outline_world > 0.0)) return 0.0;
   const double layers = area_world > 0.0 ? 0.5 * area_world / outline_world : 1.0;
   const Met met = met_by(map, box);
   double outline = met.texels;
   if (w_at(map.clip_from_world, middle) > 0.0) {
     const TexelJacobian texel = texel_jacobian(map.clip_from_world, map.texels(), middle);
-    const glm::dvec3 across = glm::cross(texel.x, texel.y);
-    outline = std::abs(across.x) * side.y * side.z + std::abs(across.y) * side.z * side.x +
-              std::abs(across.z) * side.x * side.y;
+    outline = area_across(glm::cross(texel.x, texel.y), side);
   }
   const double covered = layers * std::min(outline * met.share, met.texels);
   return std::isfinite(covered) ? covered : 0.0;

@@ -48,12 +48,17 @@ std::array<double, 7> all_of(const DrawingCosts& costs) noexcept {
           costs.per_megatexel_tested};
 }
 
+/// Costs of maps, and of pages.
+std::array<const TechniqueCosts*, 2> kinds_of(const CostModel& costs) noexcept {
+  return {&costs, &costs.pages};
+}
+
 /// The different kernels of filters.
 class Kernels {
  public:
   explicit Kernels(const CostModel& costs) noexcept {
-    for (const std::span<const FilterCost> filters : {costs.filters, costs.page_filters})
-      for (const FilterCost& f : filters) add(f.kernel_texels);
+    for (const TechniqueCosts* const kind : kinds_of(costs))
+      for (const FilterCost& f : kind->filters) add(f.kernel_texels);
   }
   [[nodiscard]] bool too_many() const noexcept { return too_many_; }
   [[nodiscard]] std::span<const double> texels() const noexcept { return {texels_.data(), count_}; }
@@ -88,12 +93,12 @@ std::string_view broken(const Budget& budget, const CostModel& costs, const Tech
   if (budget.texels < 0 || budget.bytes < 0 || !is_limit(budget.milliseconds) ||
       !is_limit(budget.target_error) || !is_limit(budget.alike))
     return "budget";
-  for (const DrawingCosts& drawing : {costs.drawing, costs.page_drawing})
-    for (const double cost : all_of(drawing))
+  for (const TechniqueCosts* const kind : kinds_of(costs))
+    for (const double cost : all_of(kind->drawing))
       if (!is_limit(cost)) return "cost_model";
   if (costs.filters.empty() || !are_costs(costs.filters)) return "cost_model.filters";
-  const bool no_filter = costs.page_filters.empty() && !among.pages.options.empty();
-  if (no_filter || !are_costs(costs.page_filters)) return "cost_model.page_filters";
+  const bool no_filter = costs.pages.filters.empty() && !among.pages.options.empty();
+  if (no_filter || !are_costs(costs.pages.filters)) return "cost_model.pages.filters";
   if (Kernels(costs).too_many()) return "cost_model.filters";
   const bool sizes = std::all_of(among.map_sizes.begin(), among.map_sizes.end(),
                                  [](int size) { return size >= kLeastMapSize && size <= kMaxMapSize; });
@@ -106,12 +111,12 @@ class Choosing {
       : costs_(costs),
         kernels_(costs),
         megapixels_(static_cast<double>(camera.width) * camera.height / kMega) {
-    for (const DrawingCosts& drawing : {costs.drawing, costs.page_drawing})
-      for (const double cost : all_of(drawing)) any_time_ = any_time_ || cost > 0.0;
-    for (const std::span<const FilterCost> filters : {costs.filters, costs.page_filters})
-      for (const FilterCost& f : filters)
+    for (const TechniqueCosts* const kind : kinds_of(costs)) {
+      for (const double cost : all_of(kind->drawing)) any_time_ = any_time_ || cost > 0.0;
+      for (const FilterCost& f : kind->filters)
         any_time_ = any_time_ || f.prefilter_ms_per_map > 0.0 || f.prefilter_ms_per_megatexel > 0.0 ||
                     f.lookup_ms_per_megapixel > 0.0;
+    }
   }
 
   [[nodiscard]] bool full() const noexcept { return count_ == all_.size(); }
@@ -125,7 +130,7 @@ class Choosing {
     const std::span<const double> texels = kernels_.texels();
     for (std::size_t i = 0; i < texels.size(); ++i)
       planned.wrong[i] = expected_error(plan, shadow, texels[i], pixels_between(shadow)).share();
-    tried_ += filters_of(technique).size();
+    tried_ += costs_of(technique).filters.size();
   }
   [[nodiscard]] int tried() const noexcept { return static_cast<int>(tried_); }
 
@@ -191,13 +196,14 @@ class Choosing {
     return a < b || (a == b && tie_a < tie_b);
   }
 
-  [[nodiscard]] std::span<const FilterCost> filters_of(const Technique& t) const noexcept {
-    return t.pages < 0 ? costs_.filters : costs_.page_filters;
+  [[nodiscard]] const TechniqueCosts& costs_of(const Technique& t) const noexcept {
+    return t.pages < 0 ? costs_ : costs_.pages;
   }
 
   [[nodiscard]] Technique priced(const Planned& planned, std::size_t filter) const noexcept {
     Technique t = planned.technique;
-    const FilterCost& f = filters_of(t)[filter];
+    const TechniqueCosts& costs = costs_of(t);
+    const FilterCost& f = costs.filters[filter];
     t.filter = static_cast<int>(filter);
     const double wrong = planned.wrong[kernels_.number_of(f.kernel_texels)];
     // Nothing has no logarithm.
@@ -205,15 +211,14 @@ class Choosing {
     const double power = has_power ? elementary::pow(wrong, f.error_power) : wrong;
     t.error = std::min(f.error_ratio * power, 1.0);
     t.bytes = static_cast<std::int64_t>(std::llround(static_cast<double>(t.texels) * f.bytes_per_texel));
-    const DrawingCosts& drawing = t.pages < 0 ? costs_.drawing : costs_.page_drawing;
-    t.milliseconds = predicted_ms(drawing, f, planned.work, megapixels_);
+    t.milliseconds = predicted_ms(costs.drawing, f, planned.work, megapixels_);
     return t;
   }
 
   template <class Visit>
   void each(Visit&& visit) const noexcept {
     for (std::size_t i = 0; i < count_; ++i) {
-      const std::size_t filters = filters_of(all_[i].technique).size();
+      const std::size_t filters = costs_of(all_[i].technique).filters.size();
       for (std::size_t filter = 0; filter < filters; ++filter) visit(priced(all_[i], filter));
     }
   }

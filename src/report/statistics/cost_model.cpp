@@ -167,7 +167,7 @@ CostModel StoredCostModel::view(std::vector<FilterCost>& costs) const {
     }
   }
   const std::span<const FilterCost> all(costs);
-  return {drawing, all.first(filters.size()), pages.drawing, all.subspan(filters.size())};
+  return {{drawing, all.first(filters.size())}, {pages.drawing, all.subspan(filters.size())}};
 }
 
 double predicted_ms(const StoredCostModel& model, const Observation& observation) noexcept {

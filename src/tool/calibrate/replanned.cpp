@@ -45,7 +45,8 @@ bool compares(const render::FilterSettings& filter) noexcept {
   return info.reads == render::MapRead::depth && info.penumbra_radius_world == nullptr;
 }
 
-/// Of a frame's pixels, as a renderer gives them: from the camera, with the view depth; 0 where there is sky.
+/// Places of a frame's pixels, as a renderer gives them: from the camera, with the view depth; 0 where there
+/// is sky.
 FloatImage positions_of(const trace::SeenShadow& seen) {
   const Camera& camera = seen.camera;
   const CameraAxes axes = camera_axes(camera);

@@ -52,7 +52,7 @@ void know(const Options& options, const report::StoredCostModel& model, Known& k
   }
   const std::string file = options.cost_model->string();
   known.of_maps = settings_of(file, known.costs.filters);
-  known.of_pages = settings_of(file, known.costs.page_filters);
+  known.of_pages = settings_of(file, known.costs.pages.filters);
   if (options.pages.on() && known.of_pages.empty())
     throw std::runtime_error(file + ": has no costs of pages; gnomon calibrate measures them");
 }

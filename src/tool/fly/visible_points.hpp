@@ -21,7 +21,7 @@ class VisiblePointsOf {
  public:
 #ifdef GNOMON_HAS_TRACE
   explicit VisiblePointsOf(const Scene& scene) : tracer_(scene) {}
-  /// Of so many columns and rows of the picture.
+  /// One for each of so many columns and rows of the picture.
   std::vector<glm::dvec3> operator()(const Camera& camera, const Light& light, int columns = 64,
                                      int rows = 36) const {
     return trace::seen_points(tracer_, camera, light, columns, rows);

@@ -21,7 +21,7 @@ struct Plain {
   Light light = DirectionalLight{{0.2, -1, 0.1}};
   Camera picture = camera;
   std::vector<float> mask, depths, occluder_distances;
-  CostModel costs{{0.5, 0.2, 2.0, 1.0, 40.0, 3.0}, kFilters};
+  CostModel costs{{{0.5, 0.2, 2.0, 1.0, 40.0, 3.0}, kFilters}};
   Budget budget;
   TechniqueSet among;
   PlanOptions base;

@@ -37,11 +37,11 @@ struct PlainWithPages : Plain {
     pages[0].capacity = 40;
     pages[1].capacity = 400;
     memory.resize(page_memory(400, points.size()));
-    costs.page_drawing = {0.1, 0.001, 0.1, 0.01, 0.4, 0.0};
+    costs.pages.drawing = {0.1, 0.001, 0.1, 0.01, 0.4, 0.0};
     budget.alike = 0.0;
   }
   [[nodiscard]] TechniqueChoice choose_with_pages() {
-    costs.page_filters = page_filters;
+    costs.pages.filters = page_filters;
     among.pages = {pages, points, feedback, memory};
     return choose();
   }
@@ -63,12 +63,12 @@ TEST(Technique, pages_are_taken_where_they_err_less_for_the_cost) {
     EXPECT_EQ(choice.chosen.error, 0.1 * share) << "with the ratio of pages";
     const PlanWork work = planned_work(choice.pages, {plain.casters, plain.receivers}, plain.work);
     EXPECT_EQ(choice.chosen.milliseconds,
-              predicted_ms(plain.costs.page_drawing, plain.page_filters[0], work, 960.0 * 640.0 / 1e6));
+              predicted_ms(plain.costs.pages.drawing, plain.page_filters[0], work, 960.0 * 640.0 / 1e6));
     EXPECT_EQ(choice.chosen.texels, std::llround(work.megatexels * 1e6));
     EXPECT_EQ(choice.chosen.map_size, choice.pages.slot_texels());
   }
   // Dear pages are left, and their plan is none that is given out.
-  plain.costs.page_drawing.per_map = 1e6;
+  plain.costs.pages.drawing.per_map = 1e6;
   plain.budget.milliseconds = 20.0;
   const TechniqueChoice maps = plain.choose_with_pages();
   ASSERT_EQ(maps.status, PlanStatus::ok);
@@ -121,14 +121,14 @@ TEST(Technique, broken_pages_are_named) {
   };
   const PlainWithPages whole = plain;
   plain.page_filters.clear();
-  EXPECT_EQ(field(), "cost_model.page_filters");
+  EXPECT_EQ(field(), "cost_model.pages.filters");
   plain.page_filters = whole.page_filters;
   plain.page_filters[0].error_ratio = 0.0;
-  EXPECT_EQ(field(), "cost_model.page_filters");
+  EXPECT_EQ(field(), "cost_model.pages.filters");
   plain.page_filters = whole.page_filters;
-  plain.costs.page_drawing.per_map = -1.0;
+  plain.costs.pages.drawing.per_map = -1.0;
   EXPECT_EQ(field(), "cost_model");
-  plain.costs.page_drawing = whole.costs.page_drawing;
+  plain.costs.pages.drawing = whole.costs.pages.drawing;
   plain.memory.resize(64);
   EXPECT_EQ(field(), "memory");
   plain.memory = whole.memory;
