@@ -131,7 +131,7 @@ export interface ViewInput {
   receivers?: BoxList | CasterSet;
   /** Points of surfaces that the camera sees. */
   points?: PointList;
-  /** Unit normals at the points. */
+  /** Unit normals at the points, towards the eye. Warps do not serve points turned from the light. */
   normals?: PointList;
   /** View depths of pixels that show a surface, such as those of last frame's depth buffer. */
   depths?: ArrayLike<number>;

@@ -32,7 +32,8 @@ struct View {
   /// last, read at every tenth pixel, say, or the first hits of rays. Empty: unknown. Time grows with their
   /// number.
   std::span<const glm::dvec3> points_world = {};
-  /// Unit normals of the same points, or empty: unknown. Pages read them, and shadow maps do not.
+  /// Unit normals of the same points towards the eye, or empty: unknown. Pages serve the surfaces that they
+  /// describe. Objective::picture does not count points that are turned from the light: no map serves them.
   std::span<const glm::dvec3> normals_world = {};
 };
 

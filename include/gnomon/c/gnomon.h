@@ -249,8 +249,9 @@ typedef struct gnomon_view {
   /// Points of surfaces that the camera sees, world space, three doubles each: of a depth buffer, or first
   /// hits of rays. NULL, the default: unknown. Time grows with their number.
   const double* points;
-  const double*
-      normals;          ///< unit normals at the points, as many; NULL, the default: unknown. Pages read them
+  /// Unit normals at the points towards the eye, as many; NULL, the default: unknown. Pages read them, and
+  /// warps do not serve points that are turned from the light.
+  const double* normals;
   int64_t point_count;  ///< points, at least 0; default 0
 } gnomon_view;
 /// Fills in defaults. `size`: sizeof *view.

@@ -354,15 +354,41 @@ HeldDepths held_depths(const Camera& camera, const CameraAxes& axes, const Boxes
   return held;
 }
 
-SeenPoints some_of(const Camera& camera, const CameraAxes& axes,
-                   std::span<const glm::dvec3> points_world) noexcept {
+namespace {
+
+/// The way to the light, of any length.
+glm::dvec3 way_to(const Light& light, const glm::dvec3& point) noexcept {
+  if (const auto* sun = std::get_if<DirectionalLight>(&light)) return -sun->direction;
+  const auto* spot = std::get_if<SpotLight>(&light);
+  return (spot != nullptr ? spot->position : std::get_if<PointLight>(&light)->position) - point;
+}
+
+/// Of a normal that is turned from the eye nothing is known.
+bool may_be_lit(const View& view, const CameraAxes& axes, const Light& light, std::size_t i) noexcept {
+  const glm::dvec3 &point = view.points_world[i], &normal = view.normals_world[i];
+  const glm::dvec3 to_eye = view.camera.orthographic ? -axes.forward : view.camera.position - point;
+  return glm::dot(normal, way_to(light, point)) > 0.0 || !(glm::dot(normal, to_eye) > 0.0);
+}
+
+}  // namespace
+
+SeenPoints some_of(const View& view, const CameraAxes& axes, const Light& light) noexcept {
   SeenPoints seen;
-  if (points_world.empty()) return seen;
-  const std::size_t stride = 1 + (points_world.size() - 1) / SeenPoints::kMost;
-  for (std::size_t i = stride / 2; i < points_world.size() && seen.count < SeenPoints::kMost; i += stride) {
-    const glm::dvec3 p = points_world[i] - camera.position;
+  const std::span<const glm::dvec3> points = view.points_world;
+  const bool known = !view.normals_world.empty();
+  std::size_t lit = known ? 0 : points.size();
+  for (std::size_t i = 0; known && i < points.size(); ++i) lit += may_be_lit(view, axes, light, i) ? 1 : 0;
+  if (lit == 0) return seen;
+  const std::size_t stride = 1 + (lit - 1) / SeenPoints::kMost;
+  // The middle of each stride, over those that count.
+  std::size_t place = stride - 1 - stride / 2;
+  for (std::size_t i = known ? 0 : stride / 2; i < points.size() && seen.count < SeenPoints::kMost;
+       i += known ? 1 : stride) {
+    if (known && (!may_be_lit(view, axes, light, i) || ++place < stride)) continue;
+    place = 0;
+    const glm::dvec3 p = points[i] - view.camera.position;
     const double depth = glm::dot(axes.forward, p);
-    if (depth >= camera.near_depth && depth <= camera.far_depth) seen.point[seen.count++] = p;
+    if (depth >= view.camera.near_depth && depth <= view.camera.far_depth) seen.point[seen.count++] = p;
   }
   return seen;
 }

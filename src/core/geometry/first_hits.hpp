@@ -12,6 +12,8 @@
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/extend/body.hpp"
+#include "gnomon/light.hpp"
+#include "gnomon/view.hpp"
 
 namespace gnomon {
 
@@ -76,8 +78,8 @@ struct HeldDepths {
 std::size_t points_inside(const Polytope& body, std::span<const glm::dvec3> points, double touching,
                           std::array<glm::dvec3, SeenPoints::kMost>& inside) noexcept;
 
-/// Evenly chosen ones of `points_world` that are in view.
-[[nodiscard]] SeenPoints some_of(const Camera& camera, const CameraAxes& axes,
-                                 std::span<const glm::dvec3> points_world) noexcept;
+/// Evenly chosen ones of the view's points that are in view and, as far as normals tell, not turned from the
+/// light.
+[[nodiscard]] SeenPoints some_of(const View& view, const CameraAxes& axes, const Light& light) noexcept;
 
 }  // namespace gnomon

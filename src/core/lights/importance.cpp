@@ -322,7 +322,8 @@ Coverage cover_points(const LightView& view, const LocalLight& light, const Poly
 
 /// A sun's plan with maps of this size.
 const ShadowPlan& sun_plan(const LightView& view, const Light& light, int size) noexcept {
-  const View seen{.camera = view.camera, .points_world = view.points_world};
+  const View seen{
+      .camera = view.camera, .points_world = view.points_world, .normals_world = view.normals_world};
   PlanOptions options = view.options;
   options.resolution.max_size = size;
   return *::new (view.sun) ShadowPlan(make_plan(seen, light, view.bounds, options));
@@ -384,12 +385,14 @@ LightImportance sun_importance(const LightView& view, const Light& light) noexce
 
 }  // namespace
 
-LightView light_view(const Camera& camera, const SceneBounds& bounds, const PlanOptions& options,
-                     std::span<const glm::dvec3> points_world, std::span<LightPoint> memory, Polytope& body,
-                     ShadowPlan* sun, int most_size) noexcept {
+LightView light_view(const View& seen, const SceneBounds& bounds, const PlanOptions& options,
+                     std::span<LightPoint> memory, Polytope& body, ShadowPlan* sun, int most_size) noexcept {
+  const Camera& camera = seen.camera;
+  const std::span<const glm::dvec3> points_world = seen.points_world;
   const CameraAxes axes = camera_axes(camera);
   body = frustum_slice(camera, axes, camera.near_depth, camera.far_depth);
-  LightView view{camera, bounds, options, axes, body, {}, false, {}, points_world, 1.0, sun, most_size};
+  LightView view{camera, bounds, options,  axes, body, {}, false, {}, points_world, seen.normals_world,
+                 1.0,    sun,    most_size};
   view.box = bounds_of(view.body);
   const Boxes &c = bounds.casters, &r = bounds.receivers;
   view.one_list = c.set() == r.set() && c.list().data() == r.list().data() && c.size() == r.size();

@@ -25,14 +25,14 @@ struct LightView {
   bool one_list;         // casters and receivers are the same boxes
   // Visible points relative to the eye in units of `unit`, a power of two; empty: unknown.
   std::span<const LightPoint> points;
-  std::span<const glm::dvec3> points_world;
+  std::span<const glm::dvec3> points_world, normals_world;
   double unit;
   ShadowPlan* sun;  // where the plan of a sun is made: it is long
   int most_size;    // side of the largest maps, texels; `options` have that of the smallest
 };
-/// Fills `memory`, which holds as many as there are points, and `body`. `sun`: room for a plan.
-[[nodiscard]] LightView light_view(const Camera& camera, const SceneBounds& bounds,
-                                   const PlanOptions& options, std::span<const glm::dvec3> points_world,
+/// Fills `memory`, which holds as many as there are points, and `body`. `sun`: room for a plan. Refers to
+/// `seen`.
+[[nodiscard]] LightView light_view(const View& seen, const SceneBounds& bounds, const PlanOptions& options,
                                    std::span<LightPoint> memory, Polytope& body, ShadowPlan* sun,
                                    int most_size) noexcept;
 

@@ -95,7 +95,8 @@ bool refuse(const View& view, std::span<const LightRequest> lights, const SceneB
     plan.invalid_field = "lights";
     return true;
   }
-  const View known{.camera = view.camera, .points_world = view.points_world};
+  const View known{
+      .camera = view.camera, .points_world = view.points_world, .normals_world = view.normals_world};
   plan.invalid_field = first_invalid_field(known, DirectionalLight{}, bounds, options);
   if (!plan.invalid_field.empty()) return true;
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -390,12 +391,14 @@ LightPlan plan_lights(const View& view, std::span<const LightRequest> lights, co
   plan.pool_width = options.pool_width;
   plan.pool_height = options.pool_height;
   const LightMemory parts = parts_of(memory, lights.size(), view.points_world.size());
-  const Camera finite = with_finite_far(view.camera, bounds.receivers);
   const SizeLadder ladder{least, level_of(options.least_size, least), level_of(options.most_size, least),
                           std::ceil(options.plan.filter.texels)};
   LightPlanner planner(lights, options, ladder, parts, history, plan);
-  planner.weigh(light_view(finite, bounds, reference, view.points_world, parts.points, parts.view.front(),
-                           parts.sun.data(), options.most_size));
+  const View seen{.camera = with_finite_far(view.camera, bounds.receivers),
+                  .points_world = view.points_world,
+                  .normals_world = view.normals_world};
+  planner.weigh(light_view(seen, bounds, reference, parts.points, parts.view.front(), parts.sun.data(),
+                           options.most_size));
   if (const std::string_view too_small = planner.size(); !too_small.empty()) {
     plan = {};
     plan.invalid_field = too_small;

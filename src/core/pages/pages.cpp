@@ -71,15 +71,7 @@ std::string_view invalid_points(const View& view, const PageHistory& history,
                                 const PageMemory& memory) noexcept {
   const std::size_t count = view.points_world.size();
   if (memory.points.empty() || memory.points.size() < count) return "memory";
-  for (const glm::dvec3& point : view.points_world) {
-    if (!usable(point)) return "view.points_world";
-  }
-  if (!view.normals_world.empty() && view.normals_world.size() != count) return "view.normals_world";
-  for (const glm::dvec3& normal : view.normals_world) {
-    // A length of 1 but for the rounding of an 8-bit normal.
-    const double length2 = glm::dot(normal, normal);
-    if (!(length2 > 0.9 && length2 < 1.1)) return "view.normals_world";
-  }
+  if (const auto field = first_invalid_points(view); !field.empty()) return field;
   if (!history.feedback.empty() && history.feedback.size() != count) return "history.feedback";
   return {};
 }

@@ -2,6 +2,7 @@
 #include "plan/input.hpp"
 
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "geometry/usable.hpp"
@@ -148,6 +149,20 @@ std::string_view invalid_options(const PlanOptions& o) noexcept {
 
 }  // namespace
 
+std::string_view first_invalid_points(const View& view) noexcept {
+  for (const glm::dvec3& point : view.points_world) {
+    if (!usable(point)) return "view.points_world";
+  }
+  if (!view.normals_world.empty() && view.normals_world.size() != view.points_world.size())
+    return "view.normals_world";
+  for (const glm::dvec3& normal : view.normals_world) {
+    // A length of 1 but for the rounding of an 8-bit normal.
+    const double length2 = glm::dot(normal, normal);
+    if (!(length2 > 0.9 && length2 < 1.1)) return "view.normals_world";
+  }
+  return {};
+}
+
 std::string_view first_invalid_field(const View& view, const Light& light, const SceneBounds& bounds,
                                      const PlanOptions& options) noexcept {
   if (const auto field = invalid_camera(view.camera); !field.empty()) return field;
@@ -161,9 +176,7 @@ std::string_view first_invalid_field(const View& view, const Light& light, const
   if (any_unusable(bounds.receivers)) return "bounds.receivers";
   if (const auto field = invalid_options(options); !field.empty()) return field;
   if (view.depths != nullptr && !usable(*view.depths)) return "view.depths";
-  for (const glm::dvec3& point : view.points_world) {
-    if (!usable(point)) return "view.points_world";
-  }
+  if (const auto field = first_invalid_points(view); !field.empty()) return field;
   return usable_budget(options, light) ? std::string_view{} : "options.resolution.texel_budget";
 }
 

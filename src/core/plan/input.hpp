@@ -12,4 +12,7 @@ namespace gnomon {
                                                    const SceneBounds& bounds,
                                                    const PlanOptions& options) noexcept;
 
+/// Name of the first list of `view` that holds a broken point or normal; empty where all is well.
+[[nodiscard]] std::string_view first_invalid_points(const View& view) noexcept;
+
 }  // namespace gnomon

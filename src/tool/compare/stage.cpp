@@ -74,7 +74,10 @@ ShadowPlan Stage::plan(const SweepEntry& entry, const Camera& camera) const {
   }
   const View* const view = this->view(camera);
   gnomon::View seen = camera;
-  if (view != nullptr && entry.points == PlanPoints::visible) seen.points_world = view->points;
+  if (view != nullptr && entry.points == PlanPoints::visible) {
+    seen.points_world = view->points;
+    seen.normals_world = view->normals;
+  }
   if (view != nullptr && entry.points == PlanPoints::shadow_edges) seen.points_world = view->edges;
   if (view != nullptr && entry.visible_depths) seen.depths = &view->depths;
   // Once for each plan, as an engine has to: the time of a plan holds it.
@@ -141,18 +144,19 @@ Stage::View Stage::view_through(const Camera& camera) {
   render::FrameOptions surfaces;
   surfaces.aliasing = surfaces.heat_map = surfaces.cascade_tint = surfaces.time_passes = false;
   renderer_->draw(ShadowPlan{}, camera, filter(sweep_.baseline), surfaces);
-  const FloatImage positions = renderer_->positions();
+  const FloatImage positions = renderer_->positions(), normals = renderer_->normals();
   const auto channels = static_cast<std::size_t>(positions.channels);
   View view;
   view.at = at_;
   view.camera = camera;
   // Channels x, y, z relative to the camera, and depth: 0 for the sky.
   for (std::size_t i = 0; i + channels <= positions.values.size(); i += channels) {
-    const float* const at = positions.values.data() + i;
+    const float *const at = positions.values.data() + i, *const facing = normals.values.data() + i;
     const double depth = at[channels - 1];
     view.depths.add(depth);
-    if (depth > 0.0 && std::isfinite(depth))
-      view.points.push_back(camera.position + glm::dvec3(at[0], at[1], at[2]));
+    if (!(depth > 0.0 && std::isfinite(depth))) continue;
+    view.points.push_back(camera.position + glm::dvec3(at[0], at[1], at[2]));
+    view.normals.emplace_back(facing[0], facing[1], facing[2]);
   }
   view.surfaces = std::make_shared<const VisibleSurfaces>(visible_surfaces(positions, nullptr, camera));
   return view;

@@ -62,7 +62,7 @@ class Stage {
     At at = At::frame;
     Camera camera;
     VisibleDepths depths;
-    std::vector<glm::dvec3> points;
+    std::vector<glm::dvec3> points, normals;
     std::vector<glm::dvec3> edges;  ///< of the shadow of the frame before, where an entry takes them
     std::shared_ptr<const VisibleSurfaces> surfaces;  ///< what pages are planned from
   };

@@ -135,6 +135,20 @@ TEST(VisiblePoints, a_broken_point_is_named) {
   EXPECT_EQ(plan.invalid_field, "view.points_world");
 }
 
+TEST(VisiblePoints, broken_normals_are_named) {
+  const Plain plain;
+  const std::vector<glm::dvec3> points = {{0, 2, 100}, {0, 2, 120}};
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (const std::vector<glm::dvec3>& normals : std::initializer_list<std::vector<glm::dvec3>>{
+           {{0, 1, 0}}, {{0, 1, 0}, {0, 2, 0}}, {{0, 1, 0}, {0, nan, 0}}}) {
+    const View view{.camera = plain.camera, .points_world = points, .normals_world = normals};
+    const ShadowPlan plan =
+        make_plan(view, DirectionalLight{plain.light}, {plain.boxes, plain.boxes}, plain.options);
+    EXPECT_EQ(plan.status, PlanStatus::invalid_input);
+    EXPECT_EQ(plan.invalid_field, "view.normals_world");
+  }
+}
+
 TEST(VisiblePoints, fits_and_lights_that_do_not_follow_them_say_so) {
   Plain plain;
   // Objective::picture counts error at them where maps do not follow them.

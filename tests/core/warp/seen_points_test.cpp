@@ -28,6 +28,14 @@ SeenPoints hits(const Camera& camera, const Boxes& boxes) {
   return first_hits(camera, camera_axes(camera), boxes);
 }
 
+const Light kSun = DirectionalLight{{0, -1, 0}};
+
+SeenPoints some(const Camera& camera, const std::vector<glm::dvec3>& points,
+                const std::vector<glm::dvec3>& normals = {}, const Light& light = kSun) {
+  return some_of({.camera = camera, .points_world = points, .normals_world = normals}, camera_axes(camera),
+                 light);
+}
+
 bool touches(const Box& box, const glm::dvec3& p) {
   constexpr double kRounding = 1e-9;
   for (int c = 0; c < 3; ++c)
@@ -141,21 +149,59 @@ TEST(FirstHits, of_rays_along_the_axes_are_hits_as_well) {
 TEST(FirstHits, of_nothing_are_none) {
   EXPECT_EQ(hits(street(), std::vector<Box>{}).count, 0u);
   EXPECT_EQ(hits(street(), std::vector<Box>{{{5, 5, 5}, {6, 6, 6}}}).count, 0u) << "behind the eye";
-  EXPECT_EQ(some_of(street(), camera_axes(street()), {}).count, 0u);
+  EXPECT_EQ(some(street(), {}).count, 0u);
 }
 
 TEST(SomePoints, are_those_in_view_evenly_chosen) {
   const Camera camera = street();
   std::vector<glm::dvec3> points;
   for (int i = 0; i < 10000; ++i) points.push_back({0.0, 0.0, -1.0 - 0.01 * i});
-  const SeenPoints seen = some_of(camera, camera_axes(camera), points);
+  const SeenPoints seen = some(camera, points);
   EXPECT_GT(seen.count, 100u);
   EXPECT_LE(seen.count, SeenPoints::kMost);
   const double infinity = std::numeric_limits<double>::infinity(), none = std::nan("");
   const std::vector<glm::dvec3> bad = {{0, 0, 5}, {0, 0, -infinity}, {none, 0, -5}, {0, 0, -500}, {0, 0, -5}};
-  const SeenPoints good = some_of(camera, camera_axes(camera), bad);
+  const SeenPoints good = some(camera, bad);
   ASSERT_EQ(good.count, 1u);
   EXPECT_EQ(good.point[0], glm::dvec3(0, 0, -5) - camera.position);
+}
+
+TEST(SomePoints, omit_surfaces_turned_from_the_light) {
+  const Camera camera = street();
+  // Twice as much ceiling as floor, and a wall that faces the eye, one after the other.
+  std::vector<glm::dvec3> points, normals;
+  const auto add = [&](const glm::dvec3& from, const glm::dvec3& step, const glm::dvec3& normal) {
+    for (int i = 0; i < 4000; ++i) {
+      points.push_back(from + step * static_cast<double>(i));
+      normals.push_back(normal);
+    }
+  };
+  const glm::dvec3 back{0, 0, -0.01};
+  add({1, 5, -5}, back, {0, -1, 0});
+  add({2, 5, -5}, back, {0, -1, 0});
+  add({0, 3, -60}, {0.001, 0, 0}, {0, -0.6, 0.8});
+  add({0, 0, -5}, back, {0, 1, 0});
+  const auto floors = [](const SeenPoints& seen) {
+    return std::count_if(seen.points().begin(), seen.points().end(),
+                         [](const glm::dvec3& p) { return p.y == -2.0; });
+  };
+  const SeenPoints any = some(camera, points), lit = some(camera, points, normals);
+  EXPECT_LT(2 * floors(any), static_cast<std::ptrdiff_t>(any.count));
+  EXPECT_EQ(floors(lit), static_cast<std::ptrdiff_t>(lit.count));
+  EXPECT_GT(lit.count, 120u) << "as many as there is room for, of what is left";
+  const auto walls = [](const SeenPoints& seen) {
+    return std::count_if(seen.points().begin(), seen.points().end(),
+                         [](const glm::dvec3& p) { return p.z == -60.0; });
+  };
+  EXPECT_GT(walls(some(camera, points, normals, PointLight{{0, 2, -10}, 100.0})), 20) << "before the wall";
+  EXPECT_EQ(walls(some(camera, points, normals, PointLight{{0, 2, -70}, 100.0})), 0) << "behind it";
+  EXPECT_GT(walls(some(camera, points, normals, SpotLight{{0, 2, -10}, {0, 0, -1}, 0.5, 100.0})), 20);
+  EXPECT_EQ(walls(some(camera, points, normals, SpotLight{{0, 2, -70}, {0, 0, 1}, 0.5, 100.0})), 0);
+}
+
+TEST(SomePoints, count_where_the_normal_is_turned_from_the_eye) {
+  const std::vector<glm::dvec3> points = {{0, 0, -5}, {0, 0, -9}}, normals = {{0, -1, 0}, {0, 1, 0}};
+  EXPECT_EQ(some(street(), points, normals).count, 2u) << "nothing is known of such a surface";
 }
 
 HeldDepths held_by(const Camera& camera, const Boxes& boxes) {

@@ -325,7 +325,7 @@ pub struct gnomon_view {
     pub depths: *const gnomon_visible_depths,
     /// Points of surfaces that the camera sees, world space, three doubles each: of a depth buffer, or first hits of rays. NULL, the default: unknown. Time grows with their number.
     pub points: *const f64,
-    /// unit normals at the points, as many; NULL, the default: unknown. Pages read them
+    /// Unit normals at the points towards the eye, as many; NULL, the default: unknown. Pages read them, and warps do not serve points that are turned from the light.
     pub normals: *const f64,
     /// points, at least 0; default 0
     pub point_count: i64,

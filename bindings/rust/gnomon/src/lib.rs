@@ -415,7 +415,8 @@ pub struct View<'a> {
     pub depths: Option<&'a VisibleDepths>,
     /// Points of surfaces that the camera sees, world space; empty: unknown. Time grows with their number.
     pub points: &'a [Point],
-    /// Unit normals at the points, as many; empty: unknown. Pages read them.
+    /// Unit normals at the points towards the eye, as many; empty: unknown. Pages read them, and warps do not
+    /// serve points that are turned from the light.
     pub normals: &'a [Point],
 }
 
