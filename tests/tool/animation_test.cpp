@@ -182,10 +182,37 @@ TEST(Playing, the_fly_command_plays_while_it_flies) {
   const Finished unknown = spawn_gnomon({"fly", scene.file, "--animation", "run"});
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_NE(unknown.err.find("it has all"), std::string::npos);
-  const Finished budget = spawn_gnomon({"fly", scene.file, "--animation", "0", "--target-error", "1"});
-  EXPECT_EQ(budget.exit_code, 2);
-  EXPECT_NE(budget.err.find("at rest"), std::string::npos);
+  const Finished hidden =
+      spawn_gnomon({"fly", scene.file, "--animation", "0", "--filter", "pcss", "--resolution", "perceptual"});
+  EXPECT_EQ(hidden.exit_code, 2);
+  EXPECT_NE(hidden.err.find("at rest"), std::string::npos);
   EXPECT_EQ(spawn_gnomon({"fly", scene.file, "--animation-fps", "2"}).exit_code, 2);
+}
+
+TEST(Playing, a_technique_is_chosen_by_the_poses_of_its_flight) {
+  const SceneFile scene;
+  const auto chosen = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"fly",
+                                   scene.file,
+                                   "--out",
+                                   (scene.folder.path() / "chosen").string(),
+                                   "--frames",
+                                   "1",
+                                   "--size",
+                                   "160x90",
+                                   "--target-error",
+                                   "0.001"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished run = spawn_gnomon(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    const std::size_t at = run.out.find("technique: ");
+    EXPECT_NE(at, std::string::npos) << run.out;
+    return run.out.substr(at, run.out.find('\n', at) - at);
+  };
+  const std::string rest = chosen({});
+  EXPECT_EQ(chosen({"--animation", "all"}), rest) << "it begins at rest";
+  EXPECT_NE(chosen({"--animation", "all", "--animation-start", "2"}), rest) << "other shadows";
+  EXPECT_EQ(chosen({"--animation", "all", "--animation-start", "4"}), rest) << "round once";
 }
 
 TEST(Playing, the_compare_command_measures_each_frame_in_its_pose) {

@@ -140,9 +140,8 @@ int run_calibrate(const CalibrateRequest& request, bool json) {
     for (const std::string& line : warnings) std::fprintf(stderr, "gnomon: warning: %s\n", line.c_str());
     rows.insert(rows.end(), more.begin(), more.end());
   }
-  // The cost model is one of maps and pages that are drawn once, of scenes at rest.
-  std::erase_if(
-      rows, [](const report::Row& row) { return !row.technique.layer.empty() || !row.animation.empty(); });
+  // The cost model is one of maps and pages that are drawn once.
+  std::erase_if(rows, [](const report::Row& row) { return !row.technique.layer.empty(); });
   if (rows.empty()) throw std::runtime_error("no results to calibrate with");
   const int code = request.check ? check_planner(report::load_cost_model(request.model), rows, json)
                                  : fit(request, rows, json);

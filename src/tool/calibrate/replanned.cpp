@@ -8,6 +8,7 @@
 #include <map>
 #include <stdexcept>
 
+#include "animation_words.hpp"
 #include "fine_picture.hpp"
 
 namespace gnomon::tool {
@@ -29,6 +30,21 @@ SceneView lit_scene(const report::Row& row) {
       count > kMostLocalLights)
     throw std::runtime_error("light '" + row.light + "': wants the number of a light, as in spot 1 of 8");
   scene.set_light(local_lights(count, scene.scene().bounds_world)[static_cast<std::size_t>(number - 1)]);
+  return scene;
+}
+
+/// The same, where it plays an animation in the row's pose.
+SceneView posed_scene(const report::Row& row) {
+  SceneView scene = lit_scene(row);
+  if (row.animation.empty()) return scene;
+  const Scene at_rest = scene.scene();
+  const int animation = find_animation(at_rest.motion, row.animation);
+  if (animation < 0)
+    throw std::runtime_error(row.scene + ": " + no_animation_text(at_rest.motion, row.animation));
+  const Animation& played = at_rest.motion.animations[static_cast<std::size_t>(animation)];
+  Pose posed;
+  (void)pose(at_rest, animation, looped_time(played, row.animation_time_s), posed);
+  scene.take(posed);
   return scene;
 }
 
@@ -87,9 +103,11 @@ std::vector<View> views_of(const std::vector<report::Row>& rows) {
     if (!row.camera.empty() || !row.edits.empty()) continue;
     const std::string light = fmt::format("{} {:g}/{:g} {}x{}", row.light, row.light_elevation_deg,
                                           row.light_azimuth_deg, row.width, row.height);
-    const std::string name = fmt::format("{} {}/{} {}", row.scene, row.frame + 1, row.frames, light);
+    const std::string scene =
+        row.animation.empty() ? row.scene : fmt::format("{} playing {}", row.scene, row.animation);
+    const std::string name = fmt::format("{} {}/{} {}", scene, row.frame + 1, row.frames, light);
     const auto [found, is_new] = known.try_emplace(name, views.size());
-    if (is_new) views.push_back({name, fmt::format("{}, {} frames, {}", row.scene, row.frames, light), {}});
+    if (is_new) views.push_back({name, fmt::format("{}, {} frames, {}", scene, row.frames, light), {}});
     views[found->second].rows.push_back(row);
   }
   return views;
@@ -101,7 +119,7 @@ double wrong_pixels(const report::Row& row) noexcept {
 
 Replanned::Replanned(const View& view)
     : name_(view.name),
-      scene_(lit_scene(view.rows.front())),
+      scene_(posed_scene(view.rows.front())),
       camera_(scene_.camera(view.rows.front().frame, view.rows.front().frames, view.rows.front().width,
                             view.rows.front().height)) {
   const trace::Tracer tracer(scene_.scene());

@@ -47,8 +47,9 @@ void choose_perceptual_maps(Options& options, const Flight& flight);
 
 /// Takes maps and filter that meet Options::budget in the frame that is hardest to serve, and prints them
 /// with what less cost and what less error would have taken. With Options::pages, pages of several target
-/// errors are among the choices; they are off afterwards where maps were chosen. Throws std::runtime_error.
-void choose_technique_of(Options& options, const Flight& flight);
+/// errors are among the choices; they are off afterwards where maps were chosen. Leaves the flight in the pose
+/// of the last frame that was looked at. Throws std::runtime_error.
+void choose_technique_of(Options& options, Flight& flight);
 
 /// Draws the frames off-screen and writes them. Returns the exit code.
 int fly_to_files(const Options& options, Flight& flight);

@@ -60,9 +60,6 @@ void check_animation(const Options& options) {
   if (options.perceptual_resolution)
     throw std::runtime_error(
         "--animation: not with --resolution perceptual, which looks at the scene at rest");
-  if (options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0)
-    throw std::runtime_error(
-        "--animation: not with --budget-ms and --target-error, which look at the scene at rest");
 }
 
 }  // namespace

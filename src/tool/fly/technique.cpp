@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -13,6 +14,7 @@
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
 #include "gnomon/scene/caster_work.hpp"
+#include "gnomon/scene/pose.hpp"
 #include "visible_points.hpp"
 #include "visible_surfaces.hpp"
 
@@ -74,6 +76,33 @@ std::vector<PageOptions> page_candidates(const Options& options) {
   return all;
 }
 
+/// What rays say of a flight's scene, as it is posed.
+class Seen {
+ public:
+  explicit Seen(const Scene& at_rest) : scene_(at_rest) { trace(); }
+  void take(const Pose& pose) {
+    apply_pose(pose, scene_);
+    trace();
+  }
+  [[nodiscard]] auto shadow(const Camera& camera, const Light& light) const {
+    return (*shadow_)(camera, light);
+  }
+  [[nodiscard]] std::vector<glm::dvec3> points(const Camera& camera, const Light& light, int columns,
+                                               int rows) const {
+    return (*points_)(camera, light, columns, rows);
+  }
+
+ private:
+  void trace() {
+    shadow_.emplace(scene_);
+    points_.emplace(scene_);
+  }
+
+  Scene scene_;
+  std::optional<SeenShadowOf> shadow_;
+  std::optional<VisiblePointsOf> points_;
+};
+
 std::string text_of(const Technique& t, const std::vector<PageOptions>& pages, const Known& known) {
   const std::string maps = t.pages < 0 ? fmt::format("{} / {} x {}", t.warp->name, t.cascades, t.map_size)
                                        : fmt::format("pages of {} for m {:.2f}",
@@ -111,28 +140,29 @@ report::StoredCostModel model_of(const Options& options) {
 
 }  // namespace
 
-void choose_technique_of(Options& options, const Flight& flight) {
+void choose_technique_of(Options& options, Flight& flight) {
   const report::StoredCostModel model = model_of(options);
   Known known;
   know(options, model, known);
   const std::vector<PageOptions> pages = page_candidates(options);
   const std::vector<CasterWork> work = caster_work(flight.scene);
   const Light light = light_of(options, flight.scene);
-  const SeenShadowOf seen_shadow(flight.scene);
-  const VisiblePointsOf seen_points(flight.scene);
+  Seen seen(flight.scene);
   TechniqueChoice hardest;
   const int frames = std::min(options.frames, kMaxPlanFrames);
   for (int i = 0; i < frames; ++i) {
     // The middle of each of `frames` equal parts.
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
     const Camera camera = camera_of(options, flight, frame);
-    const auto shadow = seen_shadow(fine_picture(camera), light);
+    pose_frame(options, flight, frame, nullptr);
+    if (flight.animation != kRestPose) seen.take(flight.pose);
+    const auto shadow = seen.shadow(fine_picture(camera), light);
     TechniqueSet among;
     std::vector<glm::dvec3> points;
     std::vector<std::byte> memory;
     if (!pages.empty()) {
       // As densely as the pages of the flight are planned from.
-      points = seen_points(camera, light, camera.width / VisibleSurfaces::kStride,
+      points = seen.points(camera, light, camera.width / VisibleSurfaces::kStride,
                            camera.height / VisibleSurfaces::kStride);
       memory.resize(page_memory(options.pages.capacity, points.size()));
       among.pages = {pages, points, {}, memory};

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "animated_gltf.hpp"
 #include "small_sweep.hpp"
 
 namespace gnomon::test {
@@ -165,6 +166,36 @@ TEST(Calibrate, shows_the_first_frames_pick_over_its_flight) {
   EXPECT_NE(checked.out.find("the first frame's pick: "), std::string::npos);
   const Finished json = run_gnomon({"calibrate", whole().string(), "--model", model, "--check", "--json"});
   EXPECT_NE(json.out.find("\"flights_by_each_frame\":[{"), std::string::npos);
+}
+
+TEST(Calibrate, knows_the_poses_of_a_scene_that_plays) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("animated.glb", animated_gltf().file());
+  const fs::path out = folder.path() / "plays";
+  const Finished measured = spawn_gnomon(
+      {"compare",   file,   "--animation", "all",    "--warps",  "none",      "--cascades", "1",
+       "--filters", "hard", "--map-sizes", "256",    "--frames", "2",         "--size",     "160x90",
+       "--rounds",  "1",    "--context",   "osmesa", "--out",    out.string()});
+  ASSERT_EQ(measured.exit_code, 0) << measured.err;
+  std::vector<report::Row> rows = report::read_rows(out);
+  ASSERT_EQ(rows.size(), 2u);
+  const std::vector<tool::View> views = tool::views_of(rows);
+  ASSERT_EQ(views.size(), 2u);
+  EXPECT_NE(views[0].name.find("playing all"), std::string::npos) << views[0].name;
+  const auto expected = [](const report::Row& row) {
+    return tool::Replanned(tool::views_of({row}).at(0)).observe(row).expected;
+  };
+  const double posed = expected(rows[1]);
+  // A picture four times as fine errs a little otherwise.
+  EXPECT_NEAR(posed, rows[1].expected_wrong.value(), 0.4 * posed);
+  report::Row rest = rows[1];
+  rest.animation_time_s = 0.0;
+  EXPECT_NE(expected(rest), posed) << "another pose";
+  rest.animation.clear();
+  EXPECT_NE(expected(rest), posed) << "at rest";
+  EXPECT_EQ(tool::views_of({rows[1], rest}).size(), 2u);
+  rest.animation = "run";
+  EXPECT_THROW((void)expected(rest), std::runtime_error);
 }
 
 TEST(Calibrate, knows_each_of_several_local_lights) {
