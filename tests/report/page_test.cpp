@@ -249,6 +249,25 @@ TEST(Expected, agrees_as_far_as_ratios_and_ranks_do) {
   EXPECT_EQ(check_expected({}).rows, 0u);
 }
 
+TEST(Expected, draws_some_of_many_rows_and_all_scenes) {
+  std::vector<Row> rows;
+  for (int i = 0; i < 700; ++i) {
+    for (Row row : expected_rows(0.9)) {
+      row.scene = i < 350 ? "builtin:first" : "builtin:last";
+      row.frame += 2 * i;
+      rows.push_back(row);
+    }
+  }
+  const std::string few = expected_part(expected_rows(0.9)), part = expected_part(rows);
+  EXPECT_EQ(count(few, ": measured "), 8u);
+  EXPECT_EQ(count(few, "The chart shows"), 0u);
+  EXPECT_EQ(count(part, ": measured "), 5600u / 3 + 1);
+  EXPECT_EQ(count(part, "The chart shows one of 3 rows."), 1u);
+  EXPECT_GT(count(part, "first frame"), 900u);
+  EXPECT_GT(count(part, "last frame"), 900u);
+  EXPECT_EQ(count(part, "5600 rows"), 1u) << "all are counted";
+}
+
 TEST(Expected, is_shown_where_rows_have_it) {
   EXPECT_EQ(count(Reported(sample_rows(1, 2)).page, "Expected without drawing"), 0u);
   const Reported report(expected_rows(2.0));

@@ -1,6 +1,7 @@
 // Does the error that plans are expected to have agree with the one that was measured?
 #include "expected.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <random>
@@ -86,6 +87,14 @@ ExpectedCheck check_expected(const std::vector<Row>& rows) {
   return check;
 }
 
+/// Of so many rows that expect something one is drawn: thousands of marks hide each other, and a page has to
+/// open soon.
+std::size_t rows_per_mark(const std::vector<Row>& rows) {
+  constexpr std::size_t kMostMarks = 2000;
+  const auto count = static_cast<std::size_t>(std::count_if(rows.begin(), rows.end(), expects_some));
+  return count == 0 ? 1 : 1 + (count - 1) / kMostMarks;
+}
+
 std::optional<Chart> expected_chart(const std::vector<Row>& rows) {
   constexpr double kPercent = 100.0;
   std::vector<double> values;
@@ -101,8 +110,10 @@ std::optional<Chart> expected_chart(const std::vector<Row>& rows) {
   expected.fit(values);
   Chart chart("Error expected and measured", measured, expected);
   chart.line({{measured.low, measured.low}, {measured.high, measured.high}}, 0, "front", "as expected");
+  const std::size_t every = rows_per_mark(rows);
+  std::size_t place = 0;
   for (const Row& row : rows) {
-    if (!expects_some(row)) continue;
+    if (!expects_some(row) || place++ % every != 0) continue;
     std::size_t scene = 0;
     while (scene < scenes.size() && scenes[scene] != row.scene) ++scene;
     if (scene == scenes.size()) scenes.push_back(row.scene);
@@ -134,6 +145,8 @@ std::string expected_part(const std::vector<Row>& rows) {
     out += " Rank correlation over the settings of a view, mean of " + counted(check.views, "view") + ": " +
            short_number(check.correlation) + ". A correct forecast would have at most " +
            short_number(check.attainable) + ", because counts of few pixels vary.";
+  if (const std::size_t every = rows_per_mark(rows); every > 1)
+    out += " The chart shows one of " + std::to_string(every) + " rows.";
   return out +
          " Each pixel takes the exact shadow at the middle of its texel, and the light that the bias lets "
          "in: no "
