@@ -128,8 +128,12 @@ std::vector<glm::dvec3> Stage::edges_through(const Camera& camera) {
     if (maps[i] < 0.0f) mask[i] = -1.0f;
   std::vector<glm::dvec3> edges(kMaxEdges);
   edges.resize(shadow_edge_points({camera, mask, channel(positions, positions.channels - 1)}, edges));
+  const std::vector<glm::dvec3> seen = view_through(camera).points;
   // A picture with hardly any shadow says nothing about the next.
-  if (edges.size() < kFewest) return view_through(camera).points;
+  if (edges.size() < kFewest) return seen;
+  // Maps reach no farther than the points: half of them are any that are seen.
+  const std::size_t every = std::max<std::size_t>(1, seen.size() / edges.size());
+  for (std::size_t i = every / 2; i < seen.size(); i += every) edges.push_back(seen[i]);
   return edges;
 }
 
