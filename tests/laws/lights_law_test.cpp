@@ -510,6 +510,12 @@ TEST(Lights, broken_input_comes_back_as_a_status) {
   EXPECT_EQ(status({{good, -1.0}}).invalid_field, "light.weight");
   EXPECT_EQ(status(std::vector<LightRequest>(10000, {good}), {}, 10000).invalid_field, "lights");
   EXPECT_EQ(status(std::vector<LightRequest>(10, {good})).invalid_field, "memory");
+  const std::vector<glm::dvec3> points = {{0, 0, 0}}, normals = {{0, 2, 0}};
+  const View view{.camera = ground.camera, .points_world = points, .normals_world = normals};
+  const std::vector<LightRequest> one = {{good}};
+  std::vector<std::byte> memory(light_memory(1, 1));
+  EXPECT_EQ(plan_lights(view, one, {ground.boxes, ground.boxes}, {}, memory).invalid_field,
+            "view.normals_world");
   const auto with = [](auto&& change) {
     LightOptions options;
     change(options);

@@ -756,7 +756,7 @@ GNOMON_EXPERIMENTAL int32_t gnomon_expected_error(const gnomon_plan* plan,
                                                   gnomon_wrong_pixels* pixels, const char** invalid_field);
 /// Writes points of the surfaces along the shadow's edges, world space, three doubles each. At most `room` of
 /// them, evenly over the picture; `*written` is how many. A plan for them (gnomon_view::points) has its
-/// texels where they show. Give it visible points as well: maps reach no farther than the points of a view.
+/// texels where they show. Give such a plan visible points as well: maps reach no farther than its points.
 GNOMON_EXPERIMENTAL int32_t gnomon_shadow_edge_points(const gnomon_shadow_picture* picture, double* points,
                                                       int64_t room, int64_t* written,
                                                       const char** invalid_field);

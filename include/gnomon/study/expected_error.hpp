@@ -72,7 +72,7 @@ inline constexpr double kMaxKernelTexels = 33.0;
 
 /// Points of the surfaces along the shadow's edges. A pixel is on an edge where one of its four neighbours
 /// shows the same surface with another shadow. A plan for them (View::points_world) has its texels where they
-/// show. Give it visible points as well: maps reach no farther than the points of a view. As many as `out`
+/// show. Give such a plan visible points as well: maps reach no farther than its points. As many as `out`
 /// has room for, evenly over the picture; returns how many.
 [[nodiscard]] std::size_t shadow_edge_points(const ShadowPicture& shadow, std::span<glm::dvec3> out) noexcept;
 

@@ -356,35 +356,28 @@ HeldDepths held_depths(const Camera& camera, const CameraAxes& axes, const Boxes
 
 namespace {
 
-/// The way to the light, of any length.
-glm::dvec3 way_to(const Light& light, const glm::dvec3& point) noexcept {
-  if (const auto* sun = std::get_if<DirectionalLight>(&light)) return -sun->direction;
-  const auto* spot = std::get_if<SpotLight>(&light);
-  return (spot != nullptr ? spot->position : std::get_if<PointLight>(&light)->position) - point;
-}
-
 /// Of a normal that is turned from the eye nothing is known.
-bool may_be_lit(const View& view, const CameraAxes& axes, const Light& light, std::size_t i) noexcept {
+bool may_be_lit(const View& view, const CameraAxes& axes, const glm::dvec4& light_world,
+                std::size_t i) noexcept {
+  if (view.normals_world.empty()) return true;
   const glm::dvec3 &point = view.points_world[i], &normal = view.normals_world[i];
+  const glm::dvec3 to_light = glm::dvec3(light_world) - light_world.w * point;
   const glm::dvec3 to_eye = view.camera.orthographic ? -axes.forward : view.camera.position - point;
-  return glm::dot(normal, way_to(light, point)) > 0.0 || !(glm::dot(normal, to_eye) > 0.0);
+  return glm::dot(normal, to_light) > 0.0 || !(glm::dot(normal, to_eye) > 0.0);
 }
 
 }  // namespace
 
-SeenPoints some_of(const View& view, const CameraAxes& axes, const Light& light) noexcept {
-  SeenPoints seen;
+SeenPoints some_of(const View& view, const CameraAxes& axes, const glm::dvec4& light_world) noexcept {
   const std::span<const glm::dvec3> points = view.points_world;
-  const bool known = !view.normals_world.empty();
-  std::size_t lit = known ? 0 : points.size();
-  for (std::size_t i = 0; known && i < points.size(); ++i) lit += may_be_lit(view, axes, light, i) ? 1 : 0;
-  if (lit == 0) return seen;
-  const std::size_t stride = 1 + (lit - 1) / SeenPoints::kMost;
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) lit += may_be_lit(view, axes, light_world, i) ? 1 : 0;
+  const std::size_t stride = lit > 0 ? 1 + (lit - 1) / SeenPoints::kMost : 1;
+  SeenPoints seen;
   // The middle of each stride, over those that count.
   std::size_t place = stride - 1 - stride / 2;
-  for (std::size_t i = known ? 0 : stride / 2; i < points.size() && seen.count < SeenPoints::kMost;
-       i += known ? 1 : stride) {
-    if (known && (!may_be_lit(view, axes, light, i) || ++place < stride)) continue;
+  for (std::size_t i = 0; i < points.size() && seen.count < SeenPoints::kMost; ++i) {
+    if (!may_be_lit(view, axes, light_world, i) || ++place < stride) continue;
     place = 0;
     const glm::dvec3 p = points[i] - view.camera.position;
     const double depth = glm::dot(axes.forward, p);

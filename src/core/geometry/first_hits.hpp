@@ -6,13 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 #include <span>
 
 #include "geometry/even_points.hpp"
 #include "gnomon/bounds.hpp"
 #include "gnomon/camera.hpp"
 #include "gnomon/extend/body.hpp"
-#include "gnomon/light.hpp"
 #include "gnomon/view.hpp"
 
 namespace gnomon {
@@ -79,7 +79,8 @@ std::size_t points_inside(const Polytope& body, std::span<const glm::dvec3> poin
                           std::array<glm::dvec3, SeenPoints::kMost>& inside) noexcept;
 
 /// Evenly chosen ones of the view's points that are in view and, as far as normals tell, not turned from the
-/// light.
-[[nodiscard]] SeenPoints some_of(const View& view, const CameraAxes& axes, const Light& light) noexcept;
+/// light. `light_world`: as ShadowMap::light_world.
+[[nodiscard]] SeenPoints some_of(const View& view, const CameraAxes& axes,
+                                 const glm::dvec4& light_world) noexcept;
 
 }  // namespace gnomon

@@ -120,7 +120,7 @@ bool beside_view(const LightView& view, const LocalLight& light) noexcept {
 /// Bounds of the parts of `boxes` inside `lit`; false where there are none.
 bool parts_inside(const LightView& view, const Boxes& boxes, const Box& lit, Box& parts) noexcept {
   const std::array<Plane, 6> planes = sides_of(lit);
-  const CasterReach reach = casters_inside(planes, boxes, view.camera.position, {0.0, 1.0, 0.0});
+  const CasterReach reach = casters_inside(planes, boxes, view.seen.camera.position, {0.0, 1.0, 0.0});
   if (!reach.any) return false;
   for (int i = 0; i < 3; ++i) {
     // Boxes that touch it may lie beside it by their rounding.
@@ -193,7 +193,7 @@ struct ImagePart {
   double left, right, bottom, top;
 };
 ImagePart part_of_image(const LightView& view, const Polytope& body) noexcept {
-  const Camera& k = view.camera;
+  const Camera& k = view.seen.camera;
   ImagePart part{k.right, k.left, k.top, k.bottom};
   for (const Polytope::Vertex& v : body.vertices()) {
     const double depth = k.orthographic ? 1.0 : max_of(glm::dot(view.axes.forward, v.position), k.near_depth);
@@ -208,7 +208,7 @@ ImagePart part_of_image(const LightView& view, const Polytope& body) noexcept {
 /// Mean of distance over depth along one ray of the image; negative where the light lights nothing there.
 double mean_along(const LightView& view, const LocalLight& light, const Box& parts, double x,
                   double y) noexcept {
-  const Camera& k = view.camera;
+  const Camera& k = view.seen.camera;
   const glm::dvec3 image = view.axes.right * x + view.axes.up * y;
   const glm::dvec3 start = k.orthographic ? image : glm::dvec3(0.0);
   const glm::dvec3 step = k.orthographic ? view.axes.forward : view.axes.forward + image;
@@ -255,9 +255,9 @@ double mean_of_corners(const LightView& view, const LocalLight& light, const Pol
   double sum = 0.0;
   for (const Polytope::Vertex& v : body.vertices()) {
     const glm::dvec3 offset = v.position - light.apex;
-    const double depth = max_of(glm::dot(view.axes.forward, v.position), view.camera.near_depth);
+    const double depth = max_of(glm::dot(view.axes.forward, v.position), view.seen.camera.near_depth);
     sum += std::abs(light.distance(offset, glm::dot(light.axis, offset))) /
-           (view.camera.orthographic ? 1.0 : depth);
+           (view.seen.camera.orthographic ? 1.0 : depth);
   }
   return sum / body.vertex_count;
 }
@@ -265,7 +265,7 @@ double mean_of_corners(const LightView& view, const LocalLight& light, const Pol
 Coverage cover_by_rays(const LightView& view, const LocalLight& light, const Polytope& body,
                        const Box& parts) noexcept {
   const ImagePart part = part_of_image(view, body);
-  const Camera& k = view.camera;
+  const Camera& k = view.seen.camera;
   const double width = max_of(0.0, part.right - part.left), height = max_of(0.0, part.top - part.bottom);
   const double cell = width * height / ((k.right - k.left) * (k.top - k.bottom)) / (kRays * kRays);
   double sum = 0.0;
@@ -322,11 +322,9 @@ Coverage cover_points(const LightView& view, const LocalLight& light, const Poly
 
 /// A sun's plan with maps of this size.
 const ShadowPlan& sun_plan(const LightView& view, const Light& light, int size) noexcept {
-  const View seen{
-      .camera = view.camera, .points_world = view.points_world, .normals_world = view.normals_world};
   PlanOptions options = view.options;
   options.resolution.max_size = size;
-  return *::new (view.sun) ShadowPlan(make_plan(seen, light, view.bounds, options));
+  return *::new (view.sun) ShadowPlan(make_plan(view.seen, light, view.bounds, options));
 }
 
 /// The most maps that a sun may need at any size: a caster may reach a cascade by a texel of one size and
@@ -353,9 +351,8 @@ int most_maps(const LightView& view, const Light& light, int at_least_size) noex
   out.share = 1.0;
   out.seen_maps = out.all_maps = plan.map_count;
   const double inside = options.resolution.max_size - 2.0 * std::ceil(options.filter.texels);
-  if (!view.points_world.empty()) {
-    const View seen{.camera = view.camera, .points_world = view.points_world};
-    const AliasingStats stats = measure(plan, seen, view.bounds);
+  if (!view.seen.points_world.empty()) {
+    const AliasingStats stats = measure(plan, view.seen, view.bounds);
     if (stats.samples > stats.outside && std::isfinite(stats.mean)) {
       out.demand = stats.mean * inside;
       return out;
@@ -367,7 +364,7 @@ int most_maps(const LightView& view, const Light& light, int at_least_size) noex
                                  map.m_t_max * (map.height - 2.0 * map.filter_margin_texels));
     // m falls as 1 / depth within a cascade.
     const double a = map.depth_begin, b = map.depth_end;
-    const bool even = view.camera.orthographic || !(a > 0.0 && b > a * (1.0 + 1e-9));
+    const bool even = view.seen.camera.orthographic || !(a > 0.0 && b > a * (1.0 + 1e-9));
     const double weight = even ? max_of(b - a, 1e-300) : elementary::log(b / a);
     sum += texels * (even ? weight : 1.0 - a / b);
     whole += weight;
@@ -391,8 +388,7 @@ LightView light_view(const View& seen, const SceneBounds& bounds, const PlanOpti
   const std::span<const glm::dvec3> points_world = seen.points_world;
   const CameraAxes axes = camera_axes(camera);
   body = frustum_slice(camera, axes, camera.near_depth, camera.far_depth);
-  LightView view{camera, bounds, options,  axes, body, {}, false, {}, points_world, seen.normals_world,
-                 1.0,    sun,    most_size};
+  LightView view{seen, bounds, options, axes, body, {}, false, {}, 1.0, sun, most_size};
   view.box = bounds_of(view.body);
   const Boxes &c = bounds.casters, &r = bounds.receivers;
   view.one_list = c.set() == r.set() && c.list().data() == r.list().data() && c.size() == r.size();
@@ -414,7 +410,7 @@ LightView light_view(const View& seen, const SceneBounds& bounds, const PlanOpti
 namespace {
 
 [[gnu::noinline]] LightImportance local_importance(const LightView& view, const Light& light) noexcept {
-  const LocalLight local = local_light(light, view.options, view.camera.position);
+  const LocalLight local = local_light(light, view.options, view.seen.camera.position);
   LightImportance out;
   // As make_plan: a range that is rounding of the position lights no pixel.
   constexpr double kLeastRange = 1e-12;
@@ -437,7 +433,7 @@ namespace {
   const Coverage seen =
       view.points.empty() ? cover_by_rays(view, local, body, parts) : cover_points(view, local, body);
   out.share = min_of(seen.share, 1.0);
-  out.demand = 2.0 * local.slope * pixels_per_slope(view.camera) * seen.mean;
+  out.demand = 2.0 * local.slope * pixels_per_slope(view.seen.camera) * seen.mean;
   return out;
 }
 

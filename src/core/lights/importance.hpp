@@ -16,7 +16,7 @@ struct LightPoint {
 
 /// Everything that is the same for all lights.
 struct LightView {
-  const Camera& camera;  // far plane finite
+  const View& seen;  // far plane finite, without depths
   const SceneBounds& bounds;
   const PlanOptions& options;
   CameraAxes axes;
@@ -25,7 +25,6 @@ struct LightView {
   bool one_list;         // casters and receivers are the same boxes
   // Visible points relative to the eye in units of `unit`, a power of two; empty: unknown.
   std::span<const LightPoint> points;
-  std::span<const glm::dvec3> points_world, normals_world;
   double unit;
   ShadowPlan* sun;  // where the plan of a sun is made: it is long
   int most_size;    // side of the largest maps, texels; `options` have that of the smallest

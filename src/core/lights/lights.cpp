@@ -95,9 +95,7 @@ bool refuse(const View& view, std::span<const LightRequest> lights, const SceneB
     plan.invalid_field = "lights";
     return true;
   }
-  const View known{
-      .camera = view.camera, .points_world = view.points_world, .normals_world = view.normals_world};
-  plan.invalid_field = first_invalid_field(known, DirectionalLight{}, bounds, options);
+  plan.invalid_field = first_invalid_field(view, DirectionalLight{}, bounds, options);
   if (!plan.invalid_field.empty()) return true;
   for (std::size_t i = 0; i < lights.size(); ++i) {
     // Boxes and points may be many: they are read once.
@@ -383,7 +381,9 @@ LightPlan plan_lights(const View& view, std::span<const LightRequest> lights, co
   if (!plan.invalid_field.empty()) return plan;
   const int least = smallest_side(options);
   const PlanOptions reference = resolve_lights(options.plan, least);
-  if (refuse(view, lights, bounds, reference, plan)) return plan;
+  View seen = view;
+  seen.depths = nullptr;  // not read
+  if (refuse(seen, lights, bounds, reference, plan)) return plan;
   if (memory.size() < light_memory(lights.size(), view.points_world.size())) plan.invalid_field = "memory";
   if (history != nullptr && history->lights.size() < lights.size()) plan.invalid_field = "history.lights";
   if (!plan.invalid_field.empty()) return plan;
@@ -394,9 +394,7 @@ LightPlan plan_lights(const View& view, std::span<const LightRequest> lights, co
   const SizeLadder ladder{least, level_of(options.least_size, least), level_of(options.most_size, least),
                           std::ceil(options.plan.filter.texels)};
   LightPlanner planner(lights, options, ladder, parts, history, plan);
-  const View seen{.camera = with_finite_far(view.camera, bounds.receivers),
-                  .points_world = view.points_world,
-                  .normals_world = view.normals_world};
+  seen.camera = with_finite_far(view.camera, bounds.receivers);
   planner.weigh(light_view(seen, bounds, reference, parts.points, parts.view.front(), parts.sun.data(),
                            options.most_size));
   if (const std::string_view too_small = planner.size(); !too_small.empty()) {

@@ -177,7 +177,7 @@ void plan_by_light(PlanContext& c, const Light& light, const Resolved& resolved,
                                     const Resolved& resolved, PlanHistory* history,
                                     ShadowPlan& plan) noexcept {
   const SeenPoints seen = view.points_world.empty() ? first_hits(view.camera, c.axes, c.bounds.receivers)
-                                                    : some_of(view, c.axes, light);
+                                                    : some_of(view, c.axes, light_of(light));
   c.seen = seen.points();
   plan_by_light(c, light, resolved, view.depths, history, plan);
 }

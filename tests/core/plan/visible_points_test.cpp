@@ -135,6 +135,33 @@ TEST(VisiblePoints, a_broken_point_is_named) {
   EXPECT_EQ(plan.invalid_field, "view.points_world");
 }
 
+TEST(VisiblePoints, that_are_turned_from_the_light_move_no_texels) {
+  Plain plain;
+  plain.options.warp = {};
+  plain.light = {0.2, -1, 0.4};
+  // A floor, and walls nearer to the eye.
+  std::vector<glm::dvec3> points, normals;
+  for (int i = 0; i < 600; ++i) {
+    const bool is_wall = i % 2 == 0;
+    points.push_back({i % 40 - 20.0, is_wall ? 3.0 : 0.0, is_wall ? 190.0 - 0.02 * i : 150.0 - 0.5 * i});
+    normals.push_back(is_wall ? glm::dvec3{0, 0, 1} : glm::dvec3{0, 1, 0});
+  }
+  const auto plan = [&](const std::vector<glm::dvec3>& facing) {
+    const View view{.camera = plain.camera, .points_world = points, .normals_world = facing};
+    return make_plan(view, DirectionalLight{plain.light}, {plain.boxes, plain.boxes}, plain.options);
+  };
+  const std::vector<glm::dvec3> up(points.size(), {0, 1, 0});
+  EXPECT_TRUE(same(plan(up), plan({}))) << "all may be lit";
+  EXPECT_FALSE(same(plan(normals), plan({})));
+  const auto at_the_floor = [&](const ShadowPlan& of) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < points.size(); i += 2)
+      sum += measure_perspective(of.map[0], plain.camera, points[i]).perspective_max;
+    return sum;
+  };
+  EXPECT_LT(at_the_floor(plan(normals)), 0.9 * at_the_floor(plan({})));
+}
+
 TEST(VisiblePoints, broken_normals_are_named) {
   const Plain plain;
   const std::vector<glm::dvec3> points = {{0, 2, 100}, {0, 2, 120}};

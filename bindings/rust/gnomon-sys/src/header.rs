@@ -1176,7 +1176,7 @@ extern "C" {
     pub fn gnomon_shadow_picture_default(picture: *mut gnomon_shadow_picture, size: u32) -> i32;
     /// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. Each pixel takes the shadow at the middle of its texel, where the texel meets the surface. Light that the plan's bias lets in counts where occluder_distances are known. Shadows narrower than a pixel count less than they should: the picture should be as fine as the texels. A plan without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure. Time grows with the pixels.
     pub fn gnomon_expected_error(plan: *const gnomon_plan, picture: *const gnomon_shadow_picture, pixels: *mut gnomon_wrong_pixels, invalid_field: *mut *const c_char) -> i32;
-    /// Writes points of the surfaces along the shadow's edges, world space, three doubles each. At most `room` of them, evenly over the picture; `*written` is how many. A plan for them (gnomon_view::points) has its texels where they show. Give it visible points as well: maps reach no farther than the points of a view.
+    /// Writes points of the surfaces along the shadow's edges, world space, three doubles each. At most `room` of them, evenly over the picture; `*written` is how many. A plan for them (gnomon_view::points) has its texels where they show. Give such a plan visible points as well: maps reach no farther than its points.
     pub fn gnomon_shadow_edge_points(picture: *const gnomon_shadow_picture, points: *mut f64, room: i64, written: *mut i64, invalid_field: *mut *const c_char) -> i32;
     /// Fills in defaults. `size`: sizeof *options.
     pub fn gnomon_page_options_default(options: *mut gnomon_page_options, size: u32) -> i32;
