@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 #include "gnomon/scene/animation.hpp"
@@ -21,6 +22,14 @@ namespace gnomon::tool {
   }
   if (motion.animations.size() > kMaxNames) names += ", ...";
   return fmt::format("animation '{}': the scene has none of this name; it has {}", word, names);
+}
+
+/// The animation of this name or number. Throws std::runtime_error with the file where there is none.
+[[nodiscard]] inline int animation_of(const std::string& file, const SceneMotion& motion,
+                                      const std::string& word) {
+  const int animation = find_animation(motion, word);
+  if (animation < 0) throw std::runtime_error(fmt::format("{}: {}", file, no_animation_text(motion, word)));
+  return animation;
 }
 
 }  // namespace gnomon::tool

@@ -38,9 +38,7 @@ SceneView posed_scene(const report::Row& row) {
   SceneView scene = lit_scene(row);
   if (row.animation.empty()) return scene;
   const Scene at_rest = scene.scene();
-  const int animation = find_animation(at_rest.motion, row.animation);
-  if (animation < 0)
-    throw std::runtime_error(row.scene + ": " + no_animation_text(at_rest.motion, row.animation));
+  const int animation = animation_of(row.scene, at_rest.motion, row.animation);
   const Animation& played = at_rest.motion.animations[static_cast<std::size_t>(animation)];
   Pose posed;
   (void)pose(at_rest, animation, looped_time(played, row.animation_time_s), posed);

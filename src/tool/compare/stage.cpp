@@ -23,9 +23,7 @@ Stage::Stage(const Sweep& sweep, const std::string& scene, ExactResults exact)
     view_.set_light(shares_.light(static_cast<std::size_t>(sweep.local_light)));
   }
   if (!sweep.animation.empty()) {
-    animation_ = find_animation(view_.scene().motion, sweep.animation);
-    if (animation_ < 0)
-      throw std::runtime_error(scene + ": " + no_animation_text(view_.scene().motion, sweep.animation));
+    animation_ = animation_of(scene, view_.scene().motion, sweep.animation);
     at_rest_ = view_.scene();
   }
   retrace();
@@ -104,7 +102,7 @@ void Stage::see(int frame) {
   if (looks) {
     go_to(frame, At::before);
     views_.push_back(view_through(camera_before(frame)));
-    if (finds_edges) views_.back().edges = edges_through(camera_before(frame));
+    if (finds_edges) views_.back().edges = edges_of(views_.back());
   }
   go_to(frame, At::frame);
   if (!looks) return;
@@ -113,27 +111,26 @@ void Stage::see(int frame) {
   views_.back().edges = edges;
 }
 
-std::vector<glm::dvec3> Stage::edges_through(const Camera& camera) {
+std::vector<glm::dvec3> Stage::edges_of(const View& view) {
   constexpr std::size_t kMaxEdges = 4096, kFewest = 64;
   PlanOptions options;
   options.resolution.max_size = sweep_.baseline.technique.map_size;
   render::FrameOptions frame;
   frame.aliasing = frame.heat_map = frame.cascade_tint = frame.time_passes = false;
-  renderer_->draw(make_plan(camera, view_.light(), view_.bounds(), options), camera, filter(sweep_.baseline),
-                  frame);
+  renderer_->draw(make_plan(view.camera, view_.light(), view_.bounds(), options), view.camera,
+                  filter(sweep_.baseline), frame);
   const FloatImage mask_image = renderer_->mask(), positions = renderer_->positions();
   std::vector<float> mask = channel(mask_image, 0);
   const std::vector<float> maps = channel(mask_image, 1);
   for (std::size_t i = 0; i < mask.size(); ++i)
     if (maps[i] < 0.0f) mask[i] = -1.0f;
   std::vector<glm::dvec3> edges(kMaxEdges);
-  edges.resize(shadow_edge_points({camera, mask, channel(positions, positions.channels - 1)}, edges));
-  const std::vector<glm::dvec3> seen = view_through(camera).points;
+  edges.resize(shadow_edge_points({view.camera, mask, channel(positions, positions.channels - 1)}, edges));
   // A picture with hardly any shadow says nothing about the next.
-  if (edges.size() < kFewest) return seen;
+  if (edges.size() < kFewest) return view.points;
   // Maps reach no farther than the points: half of them are any that are seen.
-  const std::size_t every = std::max<std::size_t>(1, seen.size() / edges.size());
-  for (std::size_t i = every / 2; i < seen.size(); i += every) edges.push_back(seen[i]);
+  const std::size_t every = std::max<std::size_t>(1, view.points.size() / edges.size());
+  for (std::size_t i = every / 2; i < view.points.size(); i += every) edges.push_back(view.points[i]);
   return edges;
 }
 

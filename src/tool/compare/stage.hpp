@@ -74,8 +74,9 @@ class Stage {
   /// Which of the capture's frames it is.
   [[nodiscard]] std::size_t captured_frame(int frame) const noexcept;
   [[nodiscard]] View view_through(const Camera& camera);
-  /// Edges of the shadow of the default plan, as a renderer finds them in the mask of a frame.
-  [[nodiscard]] std::vector<glm::dvec3> edges_through(const Camera& camera);
+  /// Edges of the shadow of the default plan, as a renderer finds them in the mask of a frame, and as many
+  /// other points of the view.
+  [[nodiscard]] std::vector<glm::dvec3> edges_of(const View& view);
 
   const Sweep& sweep_;
   ExactResults exact_;

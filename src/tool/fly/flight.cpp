@@ -262,12 +262,8 @@ Flight load_flight(Options& options) {
     warn_of(flight.scene);
     fit_picture(options.camera, flight.scene, options.size_given, options.width, options.height);
     flight.path = camera_path(options.camera, flight.scene, 1.0 * options.width / options.height);
-    if (!options.animation.empty()) {
-      flight.animation = find_animation(flight.scene.motion, options.animation);
-      if (flight.animation < 0)
-        throw std::runtime_error(
-            fmt::format("{}: {}", options.scene, no_animation_text(flight.scene.motion, options.animation)));
-    }
+    if (!options.animation.empty())
+      flight.animation = animation_of(options.scene, flight.scene.motion, options.animation);
     flight.boxes = ShadowBoxes(flight.scene);
     return flight;
   } catch (const SceneError& error) {

@@ -52,12 +52,8 @@ void resolve_budget(const Request& request, Options& options) {
         "--resolution perceptual: --budget-ms and --target-error choose the maps already");
 }
 
-// They look at the scene at rest.
 void check_animation(const Options& options) {
-  if (options.animation.empty()) return;
-  if (options.coarse_depths)
-    throw std::runtime_error("--animation: not with --coarse-depths, which looks at the scene at rest");
-  if (options.perceptual_resolution)
+  if (!options.animation.empty() && options.perceptual_resolution)
     throw std::runtime_error(
         "--animation: not with --resolution perceptual, which looks at the scene at rest");
 }
@@ -93,8 +89,6 @@ Options resolved(const Request& request) {
   options.prune = options.plan.prune;
   resolve_resolution(options);
   if (options.transition != render::SplitTransition::cut) options.plan.split.overlap = kTransitionShare;
-  if (options.visible_depths && options.coarse_depths)
-    throw std::runtime_error("--coarse-depths: not with --visible-depths, which reads the depths of a frame");
   resolve_budget(request, options);
   check_page_size(options.pages);
   if (const std::string_view other = for_whole_maps(options); options.pages.on() && !other.empty())
@@ -221,7 +215,9 @@ std::vector<Option> map_options(Request& request) {
        .help = "draw each frame twice, and plan the second for the depths that the first shows"},
       {.name = "--coarse-depths",
        .target = &request.options.coarse_depths,
-       .help = "plan each frame for the depths that a coarse pass on the CPU finds visible"},
+       .help =
+           "plan each frame for the depths that a coarse pass on the CPU finds visible, in the scene at rest",
+       .excludes = {"--visible-depths", "--animation"}},
       prune_option(plan)};
 }
 

@@ -76,33 +76,6 @@ std::vector<PageOptions> page_candidates(const Options& options) {
   return all;
 }
 
-/// What rays say of a flight's scene, as it is posed.
-class Seen {
- public:
-  explicit Seen(const Scene& at_rest) : scene_(at_rest) { trace(); }
-  void take(const Pose& pose) {
-    apply_pose(pose, scene_);
-    trace();
-  }
-  [[nodiscard]] auto shadow(const Camera& camera, const Light& light) const {
-    return (*shadow_)(camera, light);
-  }
-  [[nodiscard]] std::vector<glm::dvec3> points(const Camera& camera, const Light& light, int columns,
-                                               int rows) const {
-    return (*points_)(camera, light, columns, rows);
-  }
-
- private:
-  void trace() {
-    shadow_.emplace(scene_);
-    points_.emplace(scene_);
-  }
-
-  Scene scene_;
-  std::optional<SeenShadowOf> shadow_;
-  std::optional<VisiblePointsOf> points_;
-};
-
 std::string text_of(const Technique& t, const std::vector<PageOptions>& pages, const Known& known) {
   const std::string maps = t.pages < 0 ? fmt::format("{} / {} x {}", t.warp->name, t.cascades, t.map_size)
                                        : fmt::format("pages of {} for m {:.2f}",
@@ -147,7 +120,10 @@ void choose_technique_of(Options& options, Flight& flight) {
   const std::vector<PageOptions> pages = page_candidates(options);
   const std::vector<CasterWork> work = caster_work(flight.scene);
   const Light light = light_of(options, flight.scene);
-  Seen seen(flight.scene);
+  const bool plays = flight.animation != kRestPose;
+  Scene posed = flight.scene;
+  std::optional<SeenShadowOf> seen_shadow;
+  std::optional<VisiblePointsOf> seen_points;
   TechniqueChoice hardest;
   const int frames = std::min(options.frames, kMaxPlanFrames);
   for (int i = 0; i < frames; ++i) {
@@ -155,15 +131,19 @@ void choose_technique_of(Options& options, Flight& flight) {
     const int frame = static_cast<int>((i + 0.5) * options.frames / frames);
     const Camera camera = camera_of(options, flight, frame);
     pose_frame(options, flight, frame, nullptr);
-    if (flight.animation != kRestPose) seen.take(flight.pose);
-    const auto shadow = seen.shadow(fine_picture(camera), light);
+    if (plays) apply_pose(flight.pose, posed);
+    if (plays || i == 0) {
+      seen_shadow.emplace(posed);
+      if (!pages.empty()) seen_points.emplace(posed);
+    }
+    const auto shadow = (*seen_shadow)(fine_picture(camera), light);
     TechniqueSet among;
     std::vector<glm::dvec3> points;
     std::vector<std::byte> memory;
     if (!pages.empty()) {
       // As densely as the pages of the flight are planned from.
-      points = seen.points(camera, light, camera.width / VisibleSurfaces::kStride,
-                           camera.height / VisibleSurfaces::kStride);
+      points = (*seen_points)(camera, light, camera.width / VisibleSurfaces::kStride,
+                              camera.height / VisibleSurfaces::kStride);
       memory.resize(page_memory(options.pages.capacity, points.size()));
       among.pages = {pages, points, {}, memory};
     }
