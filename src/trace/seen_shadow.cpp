@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "light_ray.hpp"
 #include "sampling.hpp"
@@ -11,13 +12,29 @@
 
 namespace gnomon::trace {
 
+OccluderSearch LightOccluders::search() const noexcept {
+  if (tracer_ == nullptr) return {};
+  return {[](const void* scene, const glm::dvec3& point_world) noexcept {
+            const auto& of = *static_cast<const LightOccluders*>(scene);
+            const LightRay to_light = light_ray(of.light_, point_world);
+            Ray ray;
+            ray.origin = point_world;
+            ray.direction = -to_light.direction;
+            ray.begin = -to_light.distance;
+            const Hit hit = of.tracer_->first_caster(ray);
+            return hit.triangle == kNoTriangle ? -std::numeric_limits<double>::infinity() : -hit.t;
+          },
+          this};
+}
+
 SeenShadow seen_shadow(const Tracer& tracer, const Camera& camera, const Light& light) {
-  SeenShadow seen{camera, {}, {}, {}};
+  SeenShadow seen{camera, {}, {}, {}, {}, LightOccluders(tracer, light)};
   const auto width = static_cast<std::size_t>(std::max(camera.width, 0)),
              height = static_cast<std::size_t>(std::max(camera.height, 0));
   seen.mask.assign(width * height, -1.0f);
   seen.view_depths.assign(width * height, 0.0f);
   seen.occluder_distances.assign(width * height, -1.0f);
+  seen.normals_world.assign(width * height, glm::vec3(0.0f));
   const CameraAxes axes = camera_axes(camera);
   for_each_row(width > 0 ? camera.height : 0, [&](int row) {
     const std::size_t begin = static_cast<std::size_t>(row) * width;
@@ -33,6 +50,7 @@ SeenShadow seen_shadow(const Tracer& tracer, const Camera& camera, const Light& 
       if (point.state == PixelState::sky) continue;
       seen.view_depths[begin + column] =
           static_cast<float>(glm::dot(axes.forward, point.position - camera.position));
+      seen.normals_world[begin + column] = glm::vec3(point.normal);
       if (point.state != PixelState::facing) continue;
       if (!point.receives) {
         seen.mask[begin + column] = 1.0f;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "render/test_scene.hpp"
 
@@ -73,6 +74,27 @@ TEST(SeenShadow, finds_the_occluder_nearest_the_light) {
   EXPECT_GT(by_low, 50);
   EXPECT_GT(lit, 100);
   EXPECT_EQ(sun.picture().occluder_distances.data(), sun.occluder_distances.data());
+}
+
+TEST(SeenShadow, searches_between_any_point_and_the_light) {
+  const Camera down =
+      orthographic_camera({0, 2, 0}, {0, -1, 0}, {0, 0, -1}, 5.0, 2.0, 0.1, 50, kWidth, kHeight);
+  const Tracer tracer(roofed());
+  const SeenShadow sun = seen_shadow(tracer, down, DirectionalLight{{0, -2, 0}});
+  const auto distance = [](const SeenShadow& seen, const glm::dvec3& point) {
+    const OccluderSearch search = seen.picture().occluders;
+    return search.distance(search.scene, point);
+  };
+  EXPECT_NEAR(distance(sun, {1.5, 1.0, 0.5}), 2.0, 1e-9);   // under the roof
+  EXPECT_NEAR(distance(sun, {1.5, 4.0, 0.5}), -1.0, 1e-9);  // over it
+  EXPECT_NEAR(distance(sun, {2.5, 0.25, 0.5}), -0.25, 1e-9);
+  EXPECT_EQ(distance(sun, {500.0, 1.0, 0.5}), -std::numeric_limits<double>::infinity());
+  const SeenShadow lamp = seen_shadow(tracer, down, PointLight{{0, 6, 0}, 100.0});
+  EXPECT_NEAR(distance(lamp, {3.0, 0.0, 0.0}), 0.5 * std::sqrt(45.0), 1e-9);
+  EXPECT_NEAR(distance(lamp, {0.0, 5.0, 0.0}), -2.0, 1e-9);
+  ASSERT_EQ(sun.normals_world.size(), sun.mask.size());
+  for (const glm::vec3& normal : sun.picture().normals_world) EXPECT_EQ(normal, glm::vec3(0, 1, 0));
+  EXPECT_EQ(SeenShadow{}.picture().occluders.distance, nullptr);
 }
 
 TEST(SeenShadow, sky_has_no_depth_and_what_the_light_does_not_reach_does_not_count) {

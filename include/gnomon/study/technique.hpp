@@ -136,10 +136,10 @@ struct TechniqueChoice {
 /// estimates its cost with every filter. For 320 x 180 pixels that takes some ten milliseconds a plan. So
 /// call it when a scene, a view or a light is new, not in every frame. Pure, allocates nothing, never throws.
 ///
-/// `shadow`: of the last frame or of rays, and of the same view. It should be as fine as the texels. A large
-/// picture takes no longer: at most 65 536 of its pixels are counted, spread evenly. `base` gives all options
-/// that are not chosen. `casters`: one entry per box of bounds.casters, in their order; missing ones cost
-/// nothing.
+/// `shadow`: of the last frame or of rays, and of the same view. Without its occluders it should be as fine
+/// as the texels. A large picture takes no longer: at most 65 536 of its pixels are counted, spread evenly.
+/// `base` gives all options that are not chosen. `casters`: one entry per box of bounds.casters, in their
+/// order; missing ones cost nothing.
 [[nodiscard]] TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow,
                                                const Light& light, const SceneBounds& bounds,
                                                std::span<const CasterWork> casters, const TechniqueSet& among,

@@ -1,6 +1,7 @@
 // The exact hard shadow as a camera sees it, without a renderer.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "gnomon/camera.hpp"
@@ -10,15 +11,31 @@
 
 namespace gnomon::trace {
 
+/// Finds by rays what a map of a light stores: ShadowPicture::occluders.
+class LightOccluders {
+ public:
+  LightOccluders() = default;  ///< searches nothing
+  /// The tracer must outlive it.
+  LightOccluders(const Tracer& tracer, const Light& light) : tracer_(&tracer), light_(light) {}
+  /// Refers to this object, which must outlive it.
+  [[nodiscard]] OccluderSearch search() const noexcept;
+
+ private:
+  const Tracer* tracer_ = nullptr;
+  Light light_;
+};
+
 /// A ShadowPicture that owns its pixels.
 struct SeenShadow {
   Camera camera;                          ///< its width and height are those of both pictures
   std::vector<float> mask;                ///< 1 lit, 0 in shadow, -1 where no ray to the light decides
   std::vector<float> view_depths;         ///< 0 where there is no surface
   std::vector<float> occluder_distances;  ///< world units, of what is in shadow; elsewhere -1
-  /// Refers to this object, which must outlive it.
+  std::vector<glm::vec3> normals_world;   ///< of the triangles, towards the viewer; zero: no surface
+  LightOccluders occluders;
+  /// Refers to this object and to the tracer, which must outlive it.
   [[nodiscard]] ShadowPicture picture() const noexcept {
-    return {camera, mask, view_depths, occluder_distances};
+    return {camera, mask, view_depths, occluder_distances, normals_world, occluders.search()};
   }
 };
 

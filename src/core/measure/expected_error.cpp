@@ -10,6 +10,7 @@
 #include "geometry/matrix.hpp"
 #include "measure/lookup_bias.hpp"
 #include "measure/metric_kernel.hpp"
+#include "measure/traced_lookup.hpp"
 
 namespace gnomon {
 namespace {
@@ -45,6 +46,10 @@ class Pixels {
     const double distance =
         knows_occluders() ? static_cast<double>(shadow_.occluder_distances[at(x, y)]) : -1.0;
     return distance >= 0.0 && distance < bias_world ? 1.0 : lit(x, y);
+  }
+  /// Of the surface, as it was given; zero where it was not.
+  [[nodiscard]] glm::dvec3 normal(int x, int y) const noexcept {
+    return shadow_.normals_world.empty() ? glm::dvec3(0.0) : glm::dvec3(shadow_.normals_world[at(x, y)]);
   }
   [[nodiscard]] bool knows_occluders() const noexcept { return !shadow_.occluder_distances.empty(); }
   [[nodiscard]] double depth(int x, int y) const noexcept {
@@ -201,6 +206,8 @@ class TexelsOnPlane {
     place_ = grid.place({texel.ndc_x, texel.ndc_y}).texel;
     known_ = true;
   }
+  /// Of the plane, unit, towards the viewer; zero where it is not known.
+  [[nodiscard]] const glm::dvec3& normal() const noexcept { return normal_; }
   /// Of the point, in texels of its map.
   [[nodiscard]] const glm::dvec2& place() const noexcept { return place_; }
   /// Length of the bias along the light, world units; 0 where the plane is not known.
@@ -230,11 +237,6 @@ class TexelsOnPlane {
   glm::dvec2 x_{0.0}, y_{0.0}, place_{0.0};  ///< texels for each step to the right and down
   bool known_ = false;
 };
-
-/// What of a row of texels lies between two places.
-double overlap(double first, double count, double low, double high) noexcept {
-  return std::max(std::min(high, first + count) - std::max(low, first), 0.0);
-}
 
 /// The shadow over a box of texels round the point. Negative: the picture shows too few of their middles. Of
 /// wide boxes the middles of blocks stand for their texels.
@@ -283,6 +285,7 @@ ExpectedError expected_over(const ShadowPicture& shadow, const BiasOptions& bias
   const Pixels pixels(shadow);
   const double half_side = kernel_texels > 0.0 ? min_of(kernel_texels, kMaxKernelTexels) : 0.0;
   const int side = std::clamp(every, 1, kMostEvery);
+  FoundOccluders found(shadow.occluders);
   double counted = 0.0, known = 0.0, wrong = 0.0;
   for (int row = 0; row < pixels.height(); row += side) {
     for (int column = 0; column < pixels.width(); column += side) {
@@ -300,6 +303,15 @@ ExpectedError expected_over(const ShadowPicture& shadow, const BiasOptions& bias
       }
       const SurfacePlane plane = plane_at(pixels, x, y);
       const TexelsOnPlane texels(pixels, *map, plane, point, x, y);
+      if (shadow.occluders.distance != nullptr) {
+        const TracedLookup lookup(found, bias, *map, point,
+                                  safe_normalize(pixels.normal(x, y), texels.normal()));
+        if (!lookup.known()) continue;
+        known += 1.0;
+        const double drawn = half_side > 0.0 ? lookup.mean(half_side) : lookup.hard();
+        wrong += (drawn > 0.5) != (lit > 0.5) ? 1.0 : 0.0;
+        continue;
+      }
       const double bias_world = pixels.knows_occluders() ? texels.bias_world(bias) : 0.0;
       Pixels::Place place{};
       const bool shown = texels.shown(glm::floor(texels.place()) + 0.5, place);

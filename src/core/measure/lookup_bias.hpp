@@ -12,6 +12,20 @@
 
 namespace gnomon {
 
+/// The sides of a texel, world units across the light.
+struct TexelSides {
+  glm::dvec3 x{0.0}, y{0.0};  ///< ways by one texel along the map's x and y
+  double longer = 0.0;        ///< length; 0 where the map is singular
+};
+
+[[nodiscard]] inline TexelSides texel_sides(const TexelJacobian& texel,
+                                            const glm::dvec3& light_direction) noexcept {
+  const glm::dvec3 x = glm::cross(texel.y, light_direction), y = glm::cross(light_direction, texel.x);
+  const double area = glm::dot(texel.x, x);
+  if (!(std::abs(area) > 0.0)) return {};
+  return {x / area, y / area, std::sqrt(max_of(glm::dot(x, x), glm::dot(y, y))) / std::abs(area)};
+}
+
 /// Along the light, world units: constant and slope, and what the offset along the normal lifts the point
 /// over its plane. `texel`: of the map at the point. `normal`: unit, towards the side that is seen.
 /// `light_direction`: unit, the way the light travels. 0 where the surface is edge-on or faces away from
@@ -20,20 +34,17 @@ namespace gnomon {
                                               const glm::dvec3& normal,
                                               const glm::dvec3& light_direction) noexcept {
   constexpr double kEdgeOn = 1e-6;
-  // Sides of a texel across the light, times its area.
-  const glm::dvec3 side_x = glm::cross(texel.y, light_direction),
-                   side_y = glm::cross(light_direction, texel.x);
-  const double area = std::abs(glm::dot(texel.x, side_x)), cosine = -glm::dot(normal, light_direction);
-  if (!(area > 0.0) || !(cosine > kEdgeOn)) return 0.0;
+  const TexelSides side = texel_sides(texel, light_direction);
+  const double cosine = -glm::dot(normal, light_direction);
+  if (!(side.longer > 0.0) || !(cosine > kEdgeOn)) return 0.0;
   // How the plane rises towards the light, over ways across it.
   const glm::dvec3 slope = normal / cosine + light_direction;
   const double tangent = std::sqrt(glm::dot(slope, slope));
   const double most = min_of(options.max_slope, kSteepestPlane);
-  const double rise = (std::abs(glm::dot(slope, side_x)) + std::abs(glm::dot(slope, side_y))) / area *
+  const double rise = (std::abs(glm::dot(slope, side.x)) + std::abs(glm::dot(slope, side.y))) *
                       (tangent > most ? most / tangent : 1.0);
-  const double side = std::sqrt(max_of(glm::dot(side_x, side_x), glm::dot(side_y, side_y))) / area;
   return options.slope_texels * rise +
-         side * (options.constant_texels + options.normal_offset_texels * tangent);
+         side.longer * (options.constant_texels + options.normal_offset_texels * tangent);
 }
 
 }  // namespace gnomon

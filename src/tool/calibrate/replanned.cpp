@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "animation_words.hpp"
-#include "fine_picture.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -119,13 +118,12 @@ Replanned::Replanned(const View& view)
     : name_(view.name),
       scene_(posed_scene(view.rows.front())),
       camera_(scene_.camera(view.rows.front().frame, view.rows.front().frames, view.rows.front().width,
-                            view.rows.front().height)) {
-  const trace::Tracer tracer(scene_.scene());
-  shadow_ = trace::seen_shadow(tracer, fine_picture(camera_), scene_.light());
-  const trace::SeenShadow seen = trace::seen_shadow(tracer, camera_, scene_.light());
-  surfaces_ = visible_surfaces(positions_of(seen), nullptr, camera_);
+                            view.rows.front().height)),
+      tracer_(scene_.scene()),
+      shadow_(trace::seen_shadow(tracer_, camera_, scene_.light())) {
+  surfaces_ = visible_surfaces(positions_of(shadow_), nullptr, camera_);
   // What is turned away from the light is drawn dark.
-  std::vector<float> lit = seen.mask;
+  std::vector<float> lit = shadow_.mask;
   for (float& value : lit) value = std::max(value, 0.0f);
   feedback_ = feedback_of(surfaces_, lit, {});
   for (std::size_t i = 0; i < feedback_.size(); ++i)

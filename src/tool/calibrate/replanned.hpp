@@ -48,6 +48,7 @@ class Replanned {
   std::string name_;
   SceneView scene_;
   Camera camera_;
+  trace::Tracer tracer_;
   trace::SeenShadow shadow_;
   VisibleSurfaces surfaces_;            ///< that pages are planned from
   std::vector<std::uint8_t> feedback_;  ///< on them

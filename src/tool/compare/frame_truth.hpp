@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <vector>
 
 #include "gnomon/study/expected_error.hpp"
+#include "gnomon/trace/seen_shadow.hpp"
 #include "stage.hpp"
 
 namespace gnomon::tool {
@@ -21,7 +23,11 @@ struct FrameTruth {
   std::uint64_t undecided = 0;
   std::vector<float> depths;              ///< view depths of the surfaces, 0: none
   std::vector<float> occluder_distances;  ///< of what is in shadow, see ShadowPicture; -1 elsewhere
-  [[nodiscard]] ShadowPicture picture() const noexcept { return {camera, lit, depths, occluder_distances}; }
+  std::vector<glm::vec3> normals;         ///< of the surfaces, towards the viewer
+  trace::LightOccluders occluders;        ///< of the scene as the frame has it
+  [[nodiscard]] ShadowPicture picture() const noexcept {
+    return {camera, lit, depths, occluder_distances, normals, occluders.search()};
+  }
   /// The light over whole pixels; empty where it was not asked for.
   struct Pixels {
     std::vector<float> light, light_before;  ///< of the frame, and of the one before through its own camera

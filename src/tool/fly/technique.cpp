@@ -9,7 +9,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "fine_picture.hpp"
 #include "flight.hpp"
 #include "gnomon/report/cost_model.hpp"
 #include "gnomon/report/row.hpp"
@@ -136,7 +135,7 @@ void choose_technique_of(Options& options, Flight& flight) {
       seen_shadow.emplace(posed);
       if (!pages.empty()) seen_points.emplace(posed);
     }
-    const auto shadow = (*seen_shadow)(fine_picture(camera), light);
+    const auto shadow = (*seen_shadow)(camera, light);
     TechniqueSet among;
     std::vector<glm::dvec3> points;
     std::vector<std::byte> memory;

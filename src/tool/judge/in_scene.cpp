@@ -15,6 +15,7 @@
 #include "gnomon/scene/load.hpp"
 #include "gnomon/study/expected_error.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "gnomon/trace/seen_shadow.hpp"
 #include "gnomon/trace/tracer.hpp"
 #include "offscreen_context.hpp"
 #include "scene_words.hpp"
@@ -58,6 +59,8 @@ void complete(judge::Capture& capture, const Scene& scene, const trace::Tracer& 
 struct Truth {
   std::vector<trace::Verdict> verdicts;
   std::vector<float> lit, depths, occluder_distances;
+  std::vector<glm::vec3> normals;
+  trace::LightOccluders occluders;
 };
 
 Truth truth_of(render::Renderer& renderer, const render::PreparedFilter& filter, const trace::Tracer& tracer,
@@ -72,11 +75,14 @@ Truth truth_of(render::Renderer& renderer, const render::PreparedFilter& filter,
   truth.occluder_distances = trace::occluder_distances(tracer, points, light, hard);
   truth.verdicts = std::move(hard.pixels);
   truth.lit = view::lit_of(truth.verdicts, truth.verdicts.size());
+  truth.occluders = {tracer, light};
   const glm::dvec3 forward = camera_axes(camera).forward;
-  for (const trace::SurfacePoint& point : points.pixels)
+  for (const trace::SurfacePoint& point : points.pixels) {
+    truth.normals.emplace_back(point.normal);
     truth.depths.push_back(point.state == trace::PixelState::sky
                                ? 0.0f
                                : static_cast<float>(glm::dot(forward, point.position - camera.position)));
+  }
   return truth;
 }
 
@@ -93,8 +99,9 @@ DrawnErrors drawn(render::Renderer& renderer, const render::PreparedFilter& filt
       encode_png(view::misclassified_picture(mask, truth.verdicts, renderer.normals()));
   picture.assign(bytes.begin(), bytes.end());
   pixels = errors.pixels;
-  const ExpectedError expected =
-      expected_error(plan, {camera, truth.lit, truth.depths, truth.occluder_distances});
+  const ExpectedError expected = expected_error(
+      plan,
+      {camera, truth.lit, truth.depths, truth.occluder_distances, truth.normals, truth.occluders.search()});
   return {errors.false_lit + errors.false_shadow, errors.false_lit, errors.false_shadow, expected.share()};
 }
 

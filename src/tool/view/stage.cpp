@@ -15,6 +15,7 @@
 #include "gnomon/render/picture.hpp"
 #include "gnomon/render/probe.hpp"
 #include "gnomon/study/expected_error.hpp"
+#include "gnomon/study/technique.hpp"
 #include "level_picture.hpp"
 #include "lines.hpp"
 #include "page_aliasing.hpp"
@@ -339,10 +340,13 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
     const FloatImage positions = renderer_.positions();
     const std::vector<float> depths = channel(positions, static_cast<std::size_t>(positions.channels) - 1);
     const std::vector<float> lit = lit_of(truth_.verdicts(), depths.size());
-    const ShadowPicture shadow{camera_, lit, depths, truth_.occluder_distances()};
-    side.expected_wrong =
-        (side.pages ? expected_error(side.pages->plan(), shadow) : expected_error(side.drawn, shadow))
-            .share();
+    const std::vector<glm::vec3> normals = vectors_of(renderer_.normals());
+    const ShadowPicture shadow{camera_,           lit, depths, truth_.occluder_distances(), normals,
+                               truth_.occluders()};
+    const int every = pixels_between(shadow);
+    side.expected_wrong = (side.pages ? expected_error(side.pages->plan(), shadow, 0.0, every)
+                                      : expected_error(side.drawn, shadow, 0.0, every))
+                              .share();
   }
   draw_view(state, side, canvas);
   if (state.frozen && state.view != View::map) {

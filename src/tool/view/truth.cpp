@@ -57,7 +57,9 @@ void Truth::begin(std::shared_ptr<const trace::Tracer> tracer, const Camera& cam
   verdicts_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                    trace::Verdict::none);
   occluder_distances_.assign(verdicts_.size(), -1.0f);
-  thread_ = std::jthread([this, tracer = std::move(tracer), camera, light, positions = std::move(positions),
+  tracer_ = std::move(tracer);
+  occluders_ = {*tracer_, light};
+  thread_ = std::jthread([this, tracer = tracer_, camera, light, positions = std::move(positions),
                           normals = std::move(normals)](const std::stop_token& stopped) {
     for (int begin = 0; begin < height_ && !stopped.stop_requested(); begin += kBand) {
       const int end = std::min(begin + kBand, height_);
@@ -76,6 +78,8 @@ void Truth::begin(std::shared_ptr<const trace::Tracer> tracer, const Camera& cam
 void Truth::stop() {
   thread_ = {};  // asks it to stop, and waits
   picture_.clear();
+  occluders_ = {};
+  tracer_.reset();
   rows_ = 0;
   height_ = 0;
 }

@@ -12,6 +12,7 @@
 #include "gnomon/light.hpp"
 #include "gnomon/scene/image.hpp"
 #include "gnomon/trace/reference.hpp"
+#include "gnomon/trace/seen_shadow.hpp"
 
 namespace gnomon::tool::view {
 
@@ -38,6 +39,8 @@ class Truth {
   [[nodiscard]] bool done() const;
   /// ShadowPicture::occluder_distances, once it is done.
   [[nodiscard]] std::span<const float> occluder_distances() const { return occluder_distances_; }
+  /// ShadowPicture::occluders of the picture that was begun.
+  [[nodiscard]] OccluderSearch occluders() const { return occluders_.search(); }
   /// Changes with each row that is done.
   [[nodiscard]] int rows() const { return rows_; }
 
@@ -46,6 +49,8 @@ class Truth {
   int width_ = 0, height_ = 0;
   std::vector<trace::Verdict> verdicts_;
   std::vector<float> occluder_distances_;
+  std::shared_ptr<const trace::Tracer> tracer_;
+  trace::LightOccluders occluders_;
   std::atomic<int> rows_ = 0;
   std::jthread thread_;
 };

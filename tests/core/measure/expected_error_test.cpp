@@ -191,6 +191,66 @@ struct FloorPages {
   }
 };
 
+/// The same floor, and a roof that stops the light above all that is dark.
+struct Roofed : Floor {
+  double turned;
+
+  Roofed(Camera from, double edge) : Floor(from, edge), turned(edge) {}
+  [[nodiscard]] OccluderSearch search() const noexcept {
+    return {[](const void* scene, const glm::dvec3& point) noexcept {
+              return (is_lit(point, static_cast<const Roofed*>(scene)->turned) ? 0.0 : 5.0) - point.y;
+            },
+            this};
+  }
+  [[nodiscard]] ShadowPicture traced() const {
+    ShadowPicture shadow = picture();
+    shadow.occluders = search();
+    return shadow;
+  }
+};
+
+TEST(ExpectedError, with_what_a_search_finds_is_what_the_texels_get_wrong_to_the_pixel) {
+  const Camera camera =
+      perspective_camera({0, 3, 12}, {0, -0.4, -1}, {0, 1, 0}, 0.9, 1.0, 0.5, 100.0, kWidth, kHeight);
+  for (const Warp* warp : {&warps::none, &warps::lispsm}) {
+    const double turned = warp == &warps::none ? 0.15 : 1.1;
+    Roofed floor(camera, turned);
+    floor.options.warp.warp = warp;
+    const ShadowPlan plan = floor.plan();
+    for (const double kernel : {0.0, 1.5}) {
+      const double wrong = wrong_by_texels(floor, plan.maps()[0], turned, kernel);
+      EXPECT_GT(wrong, 50.0);
+      // Places on an edge round either way.
+      const ExpectedError expected = expected_error(plan, floor.traced(), kernel);
+      EXPECT_NEAR(expected.wrong_pixels, wrong, 3.0) << warp->name << ' ' << kernel;
+      EXPECT_EQ(expected.counted_pixels, expected_error(plan, floor.picture()).counted_pixels);
+      const std::vector<glm::vec3> up(floor.mask.size(), glm::vec3(0, 1, 0)), none(up.size());
+      ShadowPicture given = floor.traced();
+      given.normals_world = up;
+      EXPECT_NEAR(expected_error(plan, given, kernel).wrong_pixels, wrong, 3.0);
+      given.normals_world = none;
+      EXPECT_EQ(expected_error(plan, given, kernel).wrong_pixels, expected.wrong_pixels);
+    }
+  }
+}
+
+TEST(ExpectedError, with_a_search_sees_what_the_picture_does_not) {
+  // The picture shows none of the shadow: a caster narrower than a pixel, or middles that are hidden.
+  Roofed floor(from_above(), 0.9);
+  const ShadowPlan plan = floor.plan();
+  double dark = 0.0;
+  for (float& lit : floor.mask) {
+    dark += lit < 0.5f ? 1.0 : 0.0;
+    lit = 1.0f;
+  }
+  EXPECT_LT(expected_error(plan, floor.picture()).wrong_pixels, 1e-9);
+  EXPECT_NEAR(expected_error(plan, floor.traced()).wrong_pixels, dark, 0.05 * dark);
+  ShadowPicture broken = floor.traced();
+  const std::vector<glm::vec3> few(floor.mask.size() - 1, glm::vec3(0, 1, 0));
+  broken.normals_world = few;
+  EXPECT_EQ(expected_error(plan, broken).counted_pixels, 0.0);
+}
+
 TEST(ExpectedError, counts_the_pixels_that_texels_of_pages_get_wrong) {
   const Camera camera =
       perspective_camera({0, 3, 12}, {0, -0.4, -1}, {0, 1, 0}, 0.9, 1.0, 0.5, 100.0, kWidth, kHeight);

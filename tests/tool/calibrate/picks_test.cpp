@@ -76,7 +76,10 @@ TEST(Picks, of_a_flight_are_held_against_the_means_of_its_frames) {
   const std::vector<tool::View> views = tool::views_of(rows);
   ASSERT_EQ(views.size(), 2u);
   EXPECT_EQ(views[0].flight, views[1].flight);
-  const tool::FlightPicks picks = tool::picks_of({&views[0], &views[1]}, some_model());
+  // `hard` is taken where time is short, under the warp that errs less in the frame.
+  report::StoredCostModel model = some_model();
+  model.filters[1].cost.lookup_ms_per_megapixel = 2000.0;
+  const tool::FlightPicks picks = tool::picks_of({&views[0], &views[1]}, model);
   ASSERT_EQ(picks.of_frames.size(), 12u);
   ASSERT_EQ(picks.first_kept.size(), 6u);
   ASSERT_EQ(picks.hardest_kept.size(), 6u);
@@ -99,7 +102,7 @@ TEST(Picks, of_a_flight_are_held_against_the_means_of_its_frames) {
                      0.5 * (first.score.priced.model_ms + second.score.priced.model_ms));
   }
   EXPECT_GT(differ, 0) << "else the first frame's pick is any frame's";
-  const tool::FlightPicks alone = tool::picks_of({&views[0]}, some_model());
+  const tool::FlightPicks alone = tool::picks_of({&views[0]}, model);
   EXPECT_EQ(alone.of_frames.size(), 6u);
   EXPECT_TRUE(alone.first_kept.empty());
 }
@@ -186,8 +189,7 @@ TEST(Calibrate, knows_the_poses_of_a_scene_that_plays) {
     return tool::Replanned(tool::views_of({row}).at(0)).observe(row).expected;
   };
   const double posed = expected(rows[1]);
-  // A picture four times as fine errs a little otherwise.
-  EXPECT_NEAR(posed, rows[1].expected_wrong.value(), 0.4 * posed);
+  EXPECT_NEAR(posed, rows[1].expected_wrong.value(), 0.05 * posed);
   report::Row rest = rows[1];
   rest.animation_time_s = 0.0;
   EXPECT_NE(expected(rest), posed) << "another pose";

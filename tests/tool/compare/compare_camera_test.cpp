@@ -51,8 +51,7 @@ TEST(Compare, measures_from_an_eye_or_a_path_of_its_own_and_says_so_in_each_row)
     const double wrong = row.errors.false_lit + row.errors.false_shadow;
     ASSERT_TRUE(row.expected_wrong);
     EXPECT_GT(wrong, 0.01);
-    EXPECT_GT(*row.expected_wrong, 0.4 * wrong) << row.technique.name();
-    EXPECT_LT(*row.expected_wrong, 1.5 * wrong) << row.technique.name();
+    EXPECT_NEAR(*row.expected_wrong, wrong, 0.05 * wrong) << row.technique.name();
   }
 }
 

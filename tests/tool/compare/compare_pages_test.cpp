@@ -61,8 +61,7 @@ TEST(ComparePages, every_policy_is_measured_beside_the_map_of_as_many_texels) {
     EXPECT_TRUE(fs::exists(folder.path() / row.pictures.heat));
     ASSERT_TRUE(row.expected_wrong);
     if (row.technique.filter == "hard") {
-      EXPECT_GT(*row.expected_wrong, 0.3 * wrong(row));
-      EXPECT_LT(*row.expected_wrong, 3.0 * wrong(row));
+      EXPECT_NEAR(*row.expected_wrong, wrong(row), 0.05 * wrong(row));
     }
   }
   // What the whole of it is for: as many texels, smaller ones where they show.
