@@ -111,18 +111,6 @@ HardReference hard_reference(const Tracer& tracer, const SurfacePoints& points, 
   return result;
 }
 
-std::vector<float> occluder_distances(const Tracer& tracer, const SurfacePoints& points, const Light& light,
-                                      const HardReference& hard) {
-  std::vector<float> distances(points.pixels.size(), -1.0f);
-  for_each_row(points.height, [&](int row) {
-    const auto width = static_cast<std::size_t>(points.width), begin = static_cast<std::size_t>(row) * width;
-    for (std::size_t i = begin; i < begin + width; ++i)
-      if (hard.pixels[i] == Verdict::shadow)
-        distances[i] = static_cast<float>(occluder_distance(tracer, light, points.pixels[i]));
-  });
-  return distances;
-}
-
 KernelAxes texel_axes(const ShadowMap& map, const glm::dvec3& point, double radius_texels) noexcept {
   const auto [texel_x, texel_y] = texel_slopes(map, point);
   const glm::dvec3 light = glm::normalize(glm::dvec3(map.light_world) - map.light_world.w * point);

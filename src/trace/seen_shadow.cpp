@@ -28,19 +28,17 @@ OccluderSearch LightOccluders::search() const noexcept {
 }
 
 SeenShadow seen_shadow(const Tracer& tracer, const Camera& camera, const Light& light) {
-  SeenShadow seen{camera, {}, {}, {}, {}, LightOccluders(tracer, light)};
+  SeenShadow seen{camera, {}, {}, {}, LightOccluders(tracer, light)};
   const auto width = static_cast<std::size_t>(std::max(camera.width, 0)),
              height = static_cast<std::size_t>(std::max(camera.height, 0));
   seen.mask.assign(width * height, -1.0f);
   seen.view_depths.assign(width * height, 0.0f);
-  seen.occluder_distances.assign(width * height, -1.0f);
   seen.normals_world.assign(width * height, glm::vec3(0.0f));
   const CameraAxes axes = camera_axes(camera);
   for_each_row(width > 0 ? camera.height : 0, [&](int row) {
     const std::size_t begin = static_cast<std::size_t>(row) * width;
     std::vector<Ray> rays;
     std::vector<std::size_t> pixels;
-    std::vector<SurfacePoint> points;
     for (std::size_t column = 0; column < width; ++column) {
       const SurfacePoint point =
           met_by(tracer,
@@ -58,17 +56,12 @@ SeenShadow seen_shadow(const Tracer& tracer, const Camera& camera, const Light& 
       }
       const LightRay to_light = light_ray(light, point.position);
       pixels.push_back(begin + column);
-      points.push_back(point);
       rays.push_back(ray_off_plane(point, point.position, to_light.direction, to_light.distance,
                                    error_of(tracer, light, point)));
     }
     std::vector<std::uint8_t> stopped(rays.size());
     tracer.occluded(rays, stopped);
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
-      seen.mask[pixels[i]] = stopped[i] != 0 ? 0.0f : 1.0f;
-      if (stopped[i] != 0)
-        seen.occluder_distances[pixels[i]] = static_cast<float>(occluder_distance(tracer, light, points[i]));
-    }
+    for (std::size_t i = 0; i < pixels.size(); ++i) seen.mask[pixels[i]] = stopped[i] != 0 ? 0.0f : 1.0f;
   });
   return seen;
 }

@@ -45,21 +45,6 @@ namespace gnomon::trace {
   return ray;
 }
 
-/// Distance along the light from the point to the caster nearest the light, world units: what a map stores
-/// there. -1: no caster.
-[[nodiscard]] inline double occluder_distance(const Tracer& tracer, const Light& light,
-                                              const SurfacePoint& point) noexcept {
-  const LightRay to_light = light_ray(light, point.position);
-  Ray ray;
-  ray.origin = point.position;
-  ray.direction = -to_light.direction;
-  ray.begin = -to_light.distance;
-  ray.end = 0.0;
-  ray.except = point.triangle;
-  const Hit hit = tracer.first_caster(ray);
-  return hit.triangle == kNoTriangle ? -1.0 : -hit.t;
-}
-
 /// Distance that rays may go before they leave everything: what the engine's error is stated for.
 [[nodiscard]] inline double error_of(const Tracer& tracer, const Light& light,
                                      const SurfacePoint& point) noexcept {

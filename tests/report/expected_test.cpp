@@ -38,7 +38,6 @@ TEST(Expected, agrees_as_far_as_ratios_and_ranks_do) {
   EXPECT_NEAR(alike.ratio, 0.9, 1e-12);
   EXPECT_EQ(alike.within, 1.0);
   EXPECT_NEAR(alike.correlation, 1.0, 1e-12);
-  EXPECT_NEAR(alike.attainable, 1.0, 1e-12) << "counts that are far apart";
   rows[0].expected_wrong = 1.0;      // the least of its view is expected to be the worst
   rows[5].technique.filter = "pcf";  // another filter
   rows[6].expected_wrong.reset();    // masks of others
@@ -60,17 +59,9 @@ TEST(Expected, agrees_as_far_as_ratios_and_ranks_do) {
   for (std::size_t i = 0; i < 4; ++i) none[i].expected_wrong = 0.0;
   EXPECT_EQ(check_expected(none).views, 2u);
   EXPECT_NEAR(check_expected(none).correlation, 0.5, 1e-12);
-  // Counts from 100 to 115 cannot be told apart, those of a million times as many pixels can.
-  std::vector<Row> close = expected_rows(0.9);
-  for (std::size_t i = 0; i < close.size(); ++i) {
-    close[i].errors.pixels = 100'000;
-    close[i].errors.false_lit = 1e-3 + 5e-5 * static_cast<double>(i % 4);
-    close[i].errors.false_shadow = 0.0;
-  }
-  EXPECT_LT(check_expected(close).attainable, 0.8);
-  EXPECT_GT(check_expected(close).attainable, 0.3);
-  for (Row& row : close) row.errors.pixels *= 1'000'000;
-  EXPECT_NEAR(check_expected(close).attainable, 1.0, 1e-12);
+  // Equal errors have no order.
+  for (Row& row : none) row.errors.false_lit = row.errors.false_shadow = 0.001;
+  EXPECT_EQ(check_expected(none).views, 0u);
   EXPECT_EQ(check_expected({}).rows, 0u);
 }
 

@@ -67,11 +67,6 @@ struct HardReference {
 [[nodiscard]] HardReference hard_reference(const Tracer& tracer, const SurfacePoints& points,
                                            const Light& light);
 
-/// The distance along the light from each pixel that `hard` has in shadow to the caster nearest the light,
-/// world units: ShadowPicture::occluder_distances. -1 elsewhere. `hard`: of the same points and light.
-[[nodiscard]] std::vector<float> occluder_distances(const Tracer& tracer, const SurfacePoints& points,
-                                                    const Light& light, const HardReference& hard);
-
 /// Visibility 1 lit .. 0 in shadow; -1 where there is nothing to evaluate or the point is undecided.
 struct SoftReference {
   int width = 0, height = 0;  ///< pixels

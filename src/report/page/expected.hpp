@@ -18,7 +18,6 @@ struct ExpectedCheck {
   double ratio = 0.0;        ///< geometric mean of expected over measured, where some were expected
   std::size_t views = 0;     ///< frames of a scene with at least kCountedRows of them, whose errors differ
   double correlation = 0.0;  ///< mean over the views of the rank correlation of expected and measured
-  double attainable = 0.0;   ///< the largest that a correct forecast would have, because counts vary
 };
 inline constexpr double kAlike = 1.3;
 /// Fewer pixels are mostly chance.

@@ -144,9 +144,6 @@ FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry, int pix
   truth.lit = values_of(truth.hard);
   if (!stage.plays()) truth.lit_before = truth.lit;
   truth.depths = depths_of(truth.points, truth.camera);
-  truth.occluder_distances = stage.exact().values(
-      stage.exact().key("occluders").add(truth.points), truth.points.pixels.size(),
-      [&] { return trace::occluder_distances(stage.tracer(), truth.points, stage.light(), truth.hard); });
   for (const trace::SurfacePoint& point : truth.points.pixels) truth.normals.emplace_back(point.normal);
   truth.occluders = {stage.tracer(), stage.light()};
   truth.undecided = static_cast<std::uint64_t>(

@@ -21,12 +21,11 @@ struct FrameTruth {
   /// The same one step of a viewer earlier, through the same pixels; equal where the scene is at rest.
   std::vector<float> lit_before;
   std::uint64_t undecided = 0;
-  std::vector<float> depths;              ///< view depths of the surfaces, 0: none
-  std::vector<float> occluder_distances;  ///< of what is in shadow, see ShadowPicture; -1 elsewhere
-  std::vector<glm::vec3> normals;         ///< of the surfaces, towards the viewer
-  trace::LightOccluders occluders;        ///< of the scene as the frame has it
+  std::vector<float> depths;        ///< view depths of the surfaces, 0: none
+  std::vector<glm::vec3> normals;   ///< of the surfaces, towards the viewer
+  trace::LightOccluders occluders;  ///< of the scene as the frame has it
   [[nodiscard]] ShadowPicture picture() const noexcept {
-    return {camera, lit, depths, occluder_distances, normals, occluders.search()};
+    return {camera, lit, depths, {}, normals, occluders.search()};
   }
   /// The light over whole pixels; empty where it was not asked for.
   struct Pixels {

@@ -58,7 +58,7 @@ void complete(judge::Capture& capture, const Scene& scene, const trace::Tracer& 
 /// The exact shadow of one light, as the camera sees it.
 struct Truth {
   std::vector<trace::Verdict> verdicts;
-  std::vector<float> lit, depths, occluder_distances;
+  std::vector<float> lit, depths;
   std::vector<glm::vec3> normals;
   trace::LightOccluders occluders;
 };
@@ -72,7 +72,6 @@ Truth truth_of(render::Renderer& renderer, const render::PreparedFilter& filter,
       trace::surface_points(tracer, camera, light, renderer.positions(), renderer.normals());
   Truth truth;
   trace::HardReference hard = trace::hard_reference(tracer, points, light);
-  truth.occluder_distances = trace::occluder_distances(tracer, points, light, hard);
   truth.verdicts = std::move(hard.pixels);
   truth.lit = view::lit_of(truth.verdicts, truth.verdicts.size());
   truth.occluders = {tracer, light};
@@ -99,9 +98,8 @@ DrawnErrors drawn(render::Renderer& renderer, const render::PreparedFilter& filt
       encode_png(view::misclassified_picture(mask, truth.verdicts, renderer.normals()));
   picture.assign(bytes.begin(), bytes.end());
   pixels = errors.pixels;
-  const ExpectedError expected = expected_error(
-      plan,
-      {camera, truth.lit, truth.depths, truth.occluder_distances, truth.normals, truth.occluders.search()});
+  const ExpectedError expected =
+      expected_error(plan, {camera, truth.lit, truth.depths, {}, truth.normals, truth.occluders.search()});
   return {errors.false_lit + errors.false_shadow, errors.false_lit, errors.false_shadow, expected.share()};
 }
 

@@ -341,8 +341,7 @@ void Stage::draw_side(const State& state, const Settings& settings, Side& side, 
     const std::vector<float> depths = channel(positions, static_cast<std::size_t>(positions.channels) - 1);
     const std::vector<float> lit = lit_of(truth_.verdicts(), depths.size());
     const std::vector<glm::vec3> normals = vectors_of(renderer_.normals());
-    const ShadowPicture shadow{camera_,           lit, depths, truth_.occluder_distances(), normals,
-                               truth_.occluders()};
+    const ShadowPicture shadow{camera_, lit, depths, {}, normals, truth_.occluders()};
     const int every = pixels_between(shadow);
     side.expected_wrong = (side.pages ? expected_error(side.pages->plan(), shadow, 0.0, every)
                                       : expected_error(side.drawn, shadow, 0.0, every))

@@ -56,7 +56,6 @@ void Truth::begin(std::shared_ptr<const trace::Tracer> tracer, const Camera& cam
   height_ = positions.height;
   verdicts_.assign(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_),
                    trace::Verdict::none);
-  occluder_distances_.assign(verdicts_.size(), -1.0f);
   tracer_ = std::move(tracer);
   occluders_ = {*tracer_, light};
   thread_ = std::jthread([this, tracer = tracer_, camera, light, positions = std::move(positions),
@@ -66,10 +65,8 @@ void Truth::begin(std::shared_ptr<const trace::Tracer> tracer, const Camera& cam
       const trace::SurfacePoints points = trace::surface_points(
           *tracer, camera, light, rows_of(positions, begin, end), rows_of(normals, begin, end));
       const trace::HardReference rows = trace::hard_reference(*tracer, points, light);
-      const std::vector<float> distances = trace::occluder_distances(*tracer, points, light, rows);
       const std::ptrdiff_t first = static_cast<std::ptrdiff_t>(begin) * width_;
       std::copy(rows.pixels.begin(), rows.pixels.end(), verdicts_.begin() + first);
-      std::copy(distances.begin(), distances.end(), occluder_distances_.begin() + first);
       rows_ = end;
     }
   });

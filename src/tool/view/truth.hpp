@@ -37,8 +37,6 @@ class Truth {
   /// Pixels of the rows that are done, from the top.
   [[nodiscard]] std::span<const trace::Verdict> verdicts() const;
   [[nodiscard]] bool done() const;
-  /// ShadowPicture::occluder_distances, once it is done.
-  [[nodiscard]] std::span<const float> occluder_distances() const { return occluder_distances_; }
   /// ShadowPicture::occluders of the picture that was begun.
   [[nodiscard]] OccluderSearch occluders() const { return occluders_.search(); }
   /// Changes with each row that is done.
@@ -48,7 +46,6 @@ class Truth {
   std::string picture_;
   int width_ = 0, height_ = 0;
   std::vector<trace::Verdict> verdicts_;
-  std::vector<float> occluder_distances_;
   std::shared_ptr<const trace::Tracer> tracer_;
   trace::LightOccluders occluders_;
   std::atomic<int> rows_ = 0;
