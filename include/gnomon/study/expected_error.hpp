@@ -68,8 +68,8 @@ inline constexpr double kMaxKernelTexels = 33.0;
 /// size than the image. Pure, allocates nothing.
 ///
 /// With ShadowPicture::occluders each pixel is compared with what lies on the light's ray through the middle
-/// of its texel, on the plane of its surface. Each texel is searched once or twice. Rounding by the
-/// rasterizer is missed, and what filters do beyond averaging.
+/// of its texel, on the plane of its surface. Neighbours that read one texel search it once. Rounding by
+/// the rasterizer is missed, and what filters do beyond averaging.
 ///
 /// Without, each pixel takes the shadow that the picture shows where the middle of its texel meets the
 /// surface. Light that the bias lets in counts where occluder_distances are known. Shadows narrower than a

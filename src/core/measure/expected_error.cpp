@@ -10,6 +10,7 @@
 #include "geometry/matrix.hpp"
 #include "measure/lookup_bias.hpp"
 #include "measure/metric_kernel.hpp"
+#include "measure/texel_box.hpp"
 #include "measure/traced_lookup.hpp"
 
 namespace gnomon {
@@ -238,28 +239,15 @@ class TexelsOnPlane {
   bool known_ = false;
 };
 
-/// The shadow over a box of texels round the point. Negative: the picture shows too few of their middles. Of
-/// wide boxes the middles of blocks stand for their texels.
+/// The shadow over a box of texels round the point. Negative: the picture shows too few of their middles.
 double lit_over(const Pixels& pixels, const SurfacePlane& plane, const TexelsOnPlane& texels, int x, int y,
                 double half_side, double bias_world) noexcept {
   // Less would be one side of an edge that lies at the border of what is shown.
-  constexpr double kLeastShown = 0.9, kMostAlongSide = 8.0;
-  const double block = std::ceil(2.0 * half_side / kMostAlongSide);
-  const glm::dvec2 low = texels.place() - half_side, high = texels.place() + half_side;
-  double sum = 0.0, weights = 0.0;
-  const double least = kLeastShown * 4.0 * half_side * half_side;
-  for (double row = std::floor(low.y); row < high.y; row += block) {
-    for (double column = std::floor(low.x); column < high.x; column += block) {
-      Pixels::Place place{};
-      if (!texels.shown(glm::dvec2(column, row) + 0.5 * block, place)) continue;
-      const double lit = lit_between(pixels, plane, x, y, place, bias_world);
-      if (lit < 0.0) continue;
-      const double weight = overlap(column, block, low.x, high.x) * overlap(row, block, low.y, high.y);
-      sum += weight * lit;
-      weights += weight;
-    }
-  }
-  return weights >= least ? sum / weights : -1.0;
+  constexpr double kLeastShown = 0.9;
+  return mean_over_box(texels.place(), half_side, kLeastShown, [&](const glm::dvec2& middle) {
+    Pixels::Place place{};
+    return texels.shown(middle, place) ? lit_between(pixels, plane, x, y, place, bias_world) : -1.0;
+  });
 }
 
 /// Which pixel of a square cell of pixels stands for it: other ones in cells side by side, so that no edge
@@ -304,8 +292,8 @@ ExpectedError expected_over(const ShadowPicture& shadow, const BiasOptions& bias
       const SurfacePlane plane = plane_at(pixels, x, y);
       const TexelsOnPlane texels(pixels, *map, plane, point, x, y);
       if (shadow.occluders.distance != nullptr) {
-        const TracedLookup lookup(found, bias, *map, point,
-                                  safe_normalize(pixels.normal(x, y), texels.normal()));
+        const glm::dvec3 normal = safe_normalize(pixels.normal(x, y), texels.normal());
+        const TracedLookup lookup(found, bias, *map, point, normal);
         if (!lookup.known()) continue;
         known += 1.0;
         const double drawn = half_side > 0.0 ? lookup.mean(half_side) : lookup.hard();

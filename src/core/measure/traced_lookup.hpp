@@ -15,13 +15,9 @@
 #include "gnomon/shadow_map.hpp"
 #include "gnomon/study/expected_error.hpp"
 #include "measure/lookup_bias.hpp"
+#include "measure/texel_box.hpp"
 
 namespace gnomon {
-
-/// What of a row of texels lies between two places.
-[[nodiscard]] inline double overlap(double first, double count, double low, double high) noexcept {
-  return max_of(min_of(high, first + count) - max_of(low, first), 0.0);
-}
 
 /// What a search found on the light's rays through the middles of texels. Pixels side by side read the same
 /// ones.
@@ -44,16 +40,17 @@ class FoundOccluders {
     glm::dvec2 texel{0.0};
     double along = 0.0;  ///< of the occluder; infinite: none
   };
-  static constexpr std::int64_t kSide = 16;
-  static constexpr std::size_t kPlaces = 256;  // kSide squared
+  static constexpr std::size_t kSide = 16;
   /// A square of texels has one place for each.
   [[nodiscard]] static std::size_t place_of(const glm::dvec2& texel) noexcept {
-    const auto x = static_cast<std::int64_t>(texel.x), y = static_cast<std::int64_t>(texel.y);
-    return static_cast<std::size_t>(x & (kSide - 1)) + static_cast<std::size_t>((y & (kSide - 1)) * kSide);
+    const auto in_side = [](double x) {
+      return static_cast<std::size_t>(static_cast<std::int64_t>(x)) % kSide;
+    };
+    return in_side(texel.x) + kSide * in_side(texel.y);
   }
 
   const OccluderSearch& search_;
-  std::array<Found, kPlaces> found_{};
+  std::array<Found, kSide * kSide> found_{};
 };
 
 /// The comparisons of shaders/library/receiver.glsl: the depth of each texel with the plane of the surface
@@ -89,27 +86,18 @@ class TracedLookup {
   [[nodiscard]] bool known() const noexcept { return known_; }
   /// 1 lit or 0 dark, of the texel that is read.
   [[nodiscard]] double hard() const noexcept { return lit(glm::floor(read_) + 0.5); }
-  /// Mean over a box of texels round the look-up. Of wide boxes the middles of blocks stand for their texels.
+  /// Mean over a box of texels round the look-up; of corners and middle alone where they agree.
   [[nodiscard]] double mean(double half_side) const noexcept {
-    constexpr double kMostAlongSide = 8.0;
-    const glm::dvec2 low = read_ - half_side, high = read_ + half_side;
-    const glm::dvec2 first = glm::floor(low), last = glm::ceil(high) - 1.0;
+    const glm::dvec2 first = glm::floor(read_ - half_side), last = glm::ceil(read_ + half_side) - 1.0;
     const double own = hard();
     const std::array<glm::dvec2, 4> corners{first, glm::dvec2(last.x, first.y), glm::dvec2(first.x, last.y),
                                             last};
     bool even = true;
     for (const glm::dvec2& corner : corners) even = even && lit(corner + 0.5) == own;
     if (even) return own;
-    const double block = std::ceil(2.0 * half_side / kMostAlongSide);
-    double sum = 0.0, weights = 0.0;
-    for (double row = first.y; row < high.y; row += block) {
-      for (double column = first.x; column < high.x; column += block) {
-        const double weight = overlap(column, block, low.x, high.x) * overlap(row, block, low.y, high.y);
-        sum += weight * lit(glm::dvec2(column, row) + 0.5 * block);
-        weights += weight;
-      }
-    }
-    return weights > 0.0 ? sum / weights : own;
+    const double mean =
+        mean_over_box(read_, half_side, 0.0, [&](const glm::dvec2& middle) { return lit(middle); });
+    return mean < 0.0 ? own : mean;
   }
 
  private:
