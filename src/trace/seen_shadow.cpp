@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <utility>
 
 #include "light_ray.hpp"
 #include "sampling.hpp"
@@ -63,6 +64,19 @@ SeenShadow seen_shadow(const Tracer& tracer, const Camera& camera, const Light& 
     tracer.occluded(rays, stopped);
     for (std::size_t i = 0; i < pixels.size(); ++i) seen.mask[pixels[i]] = stopped[i] != 0 ? 0.0f : 1.0f;
   });
+  return seen;
+}
+
+SeenShadow seen_shadow(const Tracer& tracer, const Camera& camera, const Light& light,
+                       const SurfacePoints& points, std::vector<float> mask) {
+  SeenShadow seen{camera, std::move(mask), {}, {}, LightOccluders(tracer, light)};
+  const glm::dvec3 forward = camera_axes(camera).forward;
+  for (const SurfacePoint& point : points.pixels) {
+    const bool surface = point.state != PixelState::sky;
+    seen.view_depths.push_back(
+        surface ? static_cast<float>(glm::dot(forward, point.position - camera.position)) : 0.0f);
+    seen.normals_world.emplace_back(point.normal);
+  }
   return seen;
 }
 

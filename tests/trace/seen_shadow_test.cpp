@@ -101,6 +101,24 @@ TEST(SeenShadow, searches_between_any_point_and_the_light) {
   EXPECT_EQ(SeenShadow{}.picture().occluders.distance, nullptr);
 }
 
+TEST(SeenShadow, is_the_same_of_points_that_were_found) {
+  const Camera down = orthographic_camera({0, 2, 0}, {0, -1, 0}, {0, 0, -1}, 5.0, 2.0, 0.1, 50, 2, 1);
+  const Tracer tracer(roofed());
+  const DirectionalLight sun{{0, -1, 0}};
+  SurfacePoints points{2, 1, {{}, {}}};
+  points.pixels[1].state = PixelState::facing;
+  points.pixels[1].position = {2.5, 0, 0};
+  points.pixels[1].normal = {0, 1, 0};
+  const SeenShadow found = seen_shadow(tracer, down, sun, points, {-1.0f, 1.0f}),
+                   traced = seen_shadow(tracer, down, sun);
+  EXPECT_EQ(found.mask, (std::vector<float>{-1.0f, 1.0f}));
+  EXPECT_EQ(found.view_depths, (std::vector<float>{0.0f, 2.0f}));
+  EXPECT_EQ(found.view_depths[1], traced.view_depths[1]);
+  EXPECT_EQ(found.normals_world[1], traced.normals_world[1]);
+  EXPECT_NEAR(distance(found, {1.5, 1.0, 0.5}), 2.0, 1e-9);
+  EXPECT_TRUE(found.picture().is_whole());
+}
+
 TEST(SeenShadow, sky_has_no_depth_and_what_the_light_does_not_reach_does_not_count) {
   const Camera level =
       perspective_camera({0, 2, 90}, {0, 0, -1}, {0, 1, 0}, 1.0, 2.0, 0.1, 1000, kWidth, kHeight);

@@ -7,6 +7,7 @@
 #include "gnomon/camera.hpp"
 #include "gnomon/light.hpp"
 #include "gnomon/study/expected_error.hpp"
+#include "gnomon/trace/reference.hpp"
 #include "gnomon/trace/tracer.hpp"
 
 namespace gnomon::trace {
@@ -42,5 +43,8 @@ struct SeenShadow {
 /// that face away from the light, lie beyond it or are grazed by it count for nothing. The tracer must
 /// outlive what is returned.
 [[nodiscard]] SeenShadow seen_shadow(const Tracer& tracer, const Camera& camera, const Light& light);
+/// The same of points that were found, and of their shadow: `mask` is SeenShadow::mask.
+[[nodiscard]] SeenShadow seen_shadow(const Tracer& tracer, const Camera& camera, const Light& light,
+                                     const SurfacePoints& points, std::vector<float> mask);
 
 }  // namespace gnomon::trace

@@ -98,7 +98,7 @@ class Run {
 };
 
 double misclassified(const std::vector<float>& mask, const FrameTruth& truth) {
-  const report::MaskErrors errors = report::mask_errors(mask, truth.lit, truth.lit);
+  const report::MaskErrors errors = report::mask_errors(mask, truth.seen.mask, truth.seen.mask);
   return errors.false_lit + errors.false_shadow;
 }
 
@@ -108,9 +108,9 @@ double ghosting(const std::vector<float>& accumulated, const std::vector<float>&
   const auto wrong = [](float lit, float exact) { return (lit > 0.5f) != (exact > 0.5f); };
   std::uint64_t decided = 0, ghosts = 0;
   for (std::size_t i = 0; i < accumulated.size(); ++i) {
-    if (truth.lit[i] < 0.0f) continue;
+    if (truth.seen.mask[i] < 0.0f) continue;
     ++decided;
-    ghosts += wrong(accumulated[i], truth.lit[i]) && !wrong(single[i], truth.lit[i]) ? 1 : 0;
+    ghosts += wrong(accumulated[i], truth.seen.mask[i]) && !wrong(single[i], truth.seen.mask[i]) ? 1 : 0;
   }
   return decided == 0 ? 0.0 : static_cast<double>(ghosts) / static_cast<double>(decided);
 }
@@ -171,7 +171,7 @@ void measure_rest(const AccumulateRequest& request, Run& run, const Camera& came
       row.frames = drawn;
       row.wrong = misclassified(now.lit, truth);
       row.to_first = first > 0.0 ? row.wrong / first : -1.0;
-      row.flips = report::excess_flips(now.lit, next.lit, truth.lit, truth.lit);
+      row.flips = report::excess_flips(now.lit, next.lit, truth.seen.mask, truth.seen.mask);
       row.mask_ms = now.mask_ms;
       row.accumulate_ms = now.accumulate_ms;
       progress.clear();

@@ -94,9 +94,9 @@ Sweep sweep_of(const BiasRequest& request) {
 /// From each pixel in shadow to the nearest thing that shadows it, world units along the light; below zero:
 /// lit.
 std::vector<double> blocker_distances(const Stage& stage, const FrameTruth& truth) {
-  std::vector<double> distances(truth.lit.size(), -1.0);
+  std::vector<double> distances(truth.seen.mask.size(), -1.0);
   for (std::size_t i = 0; i < distances.size(); ++i) {
-    if (truth.lit[i] != 0.0f) continue;
+    if (truth.seen.mask[i] != 0.0f) continue;
     const trace::SurfacePoint& point = truth.points.pixels[i];
     trace::Ray ray;
     ray.origin = point.position;
@@ -189,7 +189,7 @@ void measure_scene(const BiasRequest& request, const Sweep& sweep, const std::st
       (void)plan.draw(truth.camera, options);
       const FloatImage mask = stage.renderer().mask();
       progress.clear();
-      print_row(scene, entry, bias, report::mask_errors(channel(mask, 0), truth.lit, truth.lit),
+      print_row(scene, entry, bias, report::mask_errors(channel(mask, 0), truth.seen.mask, truth.seen.mask),
                 contact_gap(plan, stage, truth, mask, blocker), request.json);
       progress.set(++rows);
       if (request.out.empty()) continue;

@@ -86,7 +86,7 @@ struct Wrong {
 
 Wrong wrong_pixels(const std::vector<float>& lit, const FrameTruth& truth,
                    const std::vector<float>& uniform) {
-  const report::MaskErrors errors = report::mask_errors(lit, truth.lit, uniform);
+  const report::MaskErrors errors = report::mask_errors(lit, truth.seen.mask, uniform);
   const auto decided = static_cast<double>(errors.pixels);
   return {decided, errors.false_shadow * decided, errors.false_lit * decided, errors.too_dark * decided,
           errors.too_light * decided};
@@ -188,7 +188,7 @@ void measure_view(const Sweep& product, const std::string& scene, const SweptLig
   warn_of(stage.scene());
   const FrameTruth truth = frame_truth(stage, frame, product.baseline);
   constexpr int kReach = 3;  // pixels
-  const std::vector<float> uniform = report::uniform_truth(truth.lit, truth.hard.width, kReach);
+  const std::vector<float> uniform = report::uniform_truth(truth.seen.mask, truth.hard.width, kReach);
   for (SweepEntry entry : product.entries) {
     Wrong first;
     for (std::size_t i = 0; i < table.settings().size(); ++i) {

@@ -52,10 +52,11 @@ report::Pictures write_pictures(const std::filesystem::path& folder, std::size_t
     return mixed(kShadow, kLit, static_cast<double>(visibility));
   };
   write_png(drawn.image, folder / names.image);
-  write_png(painted(truth, [&](std::size_t i) { return light_at(truth.lit[i]); }), folder / names.truth);
+  write_png(painted(truth, [&](std::size_t i) { return light_at(truth.seen.mask[i]); }),
+            folder / names.truth);
   write_png(painted(truth, [&](std::size_t i) { return light_at(drawn.mask[i]); }), folder / names.mask);
   const auto difference = [&](std::size_t i) {
-    const auto exact = static_cast<double>(truth.lit[i]);
+    const auto exact = static_cast<double>(truth.seen.mask[i]);
     return error_color(exact, static_cast<double>(drawn.mask[i]) - exact);
   };
   write_png(painted(truth, difference), folder / names.difference);

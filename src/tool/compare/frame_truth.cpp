@@ -68,19 +68,6 @@ std::vector<float> values_of(const trace::HardReference& hard) {
   return values;
 }
 
-/// View depths of the surfaces; 0: none.
-std::vector<float> depths_of(const trace::SurfacePoints& points, const Camera& camera) {
-  const glm::dvec3 forward = camera_axes(camera).forward;
-  std::vector<float> depths;
-  depths.reserve(points.pixels.size());
-  for (const trace::SurfacePoint& point : points.pixels) {
-    const bool surface = point.state != trace::PixelState::sky;
-    depths.push_back(surface ? static_cast<float>(glm::dot(forward, point.position - camera.position))
-                             : 0.0f);
-  }
-  return depths;
-}
-
 /// Pixel of `before` that shows the point which pixel `i` of `after` shows, within the side of a pixel; -1:
 /// none does.
 std::vector<int> seen_before(const trace::SurfacePoints& after, const trace::SurfacePoints& before,
@@ -141,11 +128,9 @@ FrameTruth frame_truth(Stage& stage, int frame, const SweepEntry& entry, int pix
     truth.pixels.several = std::move(pixels.several);
     truth.pixels.seen_at = seen_before(truth.points, points_before, truth.before);
   }
-  truth.lit = values_of(truth.hard);
-  if (!stage.plays()) truth.lit_before = truth.lit;
-  truth.depths = depths_of(truth.points, truth.camera);
-  for (const trace::SurfacePoint& point : truth.points.pixels) truth.normals.emplace_back(point.normal);
-  truth.occluders = {stage.tracer(), stage.light()};
+  truth.seen =
+      trace::seen_shadow(stage.tracer(), truth.camera, stage.light(), truth.points, values_of(truth.hard));
+  if (!stage.plays()) truth.lit_before = truth.seen.mask;
   truth.undecided = static_cast<std::uint64_t>(
       std::count(truth.hard.pixels.begin(), truth.hard.pixels.end(), trace::Verdict::undecided));
   return truth;

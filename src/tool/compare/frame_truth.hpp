@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <vector>
 
 #include "gnomon/study/expected_error.hpp"
@@ -17,16 +16,10 @@ struct FrameTruth {
   Camera camera, before;
   trace::SurfacePoints points;
   trace::HardReference hard;
-  std::vector<float> lit;  ///< the hard answer as 1 and 0, -1 where there is none
-  /// The same one step of a viewer earlier, through the same pixels; equal where the scene is at rest.
+  trace::SeenShadow seen;  ///< the same as pictures
+  /// Its mask one step of a viewer earlier, through the same pixels; equal where the scene is at rest.
   std::vector<float> lit_before;
   std::uint64_t undecided = 0;
-  std::vector<float> depths;        ///< view depths of the surfaces, 0: none
-  std::vector<glm::vec3> normals;   ///< of the surfaces, towards the viewer
-  trace::LightOccluders occluders;  ///< of the scene as the frame has it
-  [[nodiscard]] ShadowPicture picture() const noexcept {
-    return {camera, lit, depths, {}, normals, occluders.search()};
-  }
   /// The light over whole pixels; empty where it was not asked for.
   struct Pixels {
     std::vector<float> light, light_before;  ///< of the frame, and of the one before through its own camera

@@ -75,7 +75,7 @@ std::vector<float> filtered(const Stage& stage, const FrameTruth& truth, trace::
 
 std::vector<float> soft_truth(const Stage& stage, const FrameTruth& truth, const Planned& plan,
                               const SweepEntry& entry, const std::vector<float>& maps) {
-  if (entry.irregular_samples == 1) return truth.lit;
+  if (entry.irregular_samples == 1) return truth.seen.mask;
   if (entry.irregular()) {
     // As many as make the mean's own error small beside that of the most samples a pixel can have.
     constexpr int kSamples = 256;
@@ -187,11 +187,11 @@ report::PixelErrors errors_of_pixels(const FrameTruth::Pixels& pixels, const std
 /// All errors that masks alone decide. `soft`: the ideal filter's, negative where it is not known.
 void set_errors(const FrameTruth& truth, const FrameMasks& masks, const std::vector<float>& soft,
                 report::Row& row) {
-  row.errors = report::mask_errors(masks.mask, truth.lit, soft);
+  row.errors = report::mask_errors(masks.mask, truth.seen.mask, soft);
   row.undecided_pixels = truth.undecided;
   row.flips = masks.moved.empty()
                   ? kUnknown
-                  : report::excess_flips(masks.moved, masks.mask, truth.lit_before, truth.lit);
+                  : report::excess_flips(masks.moved, masks.mask, truth.lit_before, truth.seen.mask);
   if (!truth.pixels.light.empty()) row.pixel = errors_of_pixels(truth.pixels, masks.mask, masks.before);
 }
 
@@ -273,7 +273,7 @@ FrameMasks measure_errors(Stage& stage, const FrameTruth& truth, const SweepEntr
   const std::vector<float> soft = soft_truth(stage, truth, plan, entry, maps);
   set_errors(truth, masks, soft, row);
   row.aliasing = report::pixel_aliasing(plan.aliasing(mask_image));
-  row.expected_wrong = plan.expected(truth.picture()).share();
+  row.expected_wrong = plan.expected(truth.seen.picture()).share();
   count_costs(stats, plan, entry, row);
   if (entry.irregular()) {
     row.costs.lists = list_lengths(renderer);

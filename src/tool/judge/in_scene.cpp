@@ -58,9 +58,7 @@ void complete(judge::Capture& capture, const Scene& scene, const trace::Tracer& 
 /// The exact shadow of one light, as the camera sees it.
 struct Truth {
   std::vector<trace::Verdict> verdicts;
-  std::vector<float> lit, depths;
-  std::vector<glm::vec3> normals;
-  trace::LightOccluders occluders;
+  trace::SeenShadow seen;
 };
 
 Truth truth_of(render::Renderer& renderer, const render::PreparedFilter& filter, const trace::Tracer& tracer,
@@ -70,18 +68,9 @@ Truth truth_of(render::Renderer& renderer, const render::PreparedFilter& filter,
   renderer.draw(ShadowPlan{}, camera, filter, surfaces);
   const trace::SurfacePoints points =
       trace::surface_points(tracer, camera, light, renderer.positions(), renderer.normals());
-  Truth truth;
-  trace::HardReference hard = trace::hard_reference(tracer, points, light);
-  truth.verdicts = std::move(hard.pixels);
-  truth.lit = view::lit_of(truth.verdicts, truth.verdicts.size());
-  truth.occluders = {tracer, light};
-  const glm::dvec3 forward = camera_axes(camera).forward;
-  for (const trace::SurfacePoint& point : points.pixels) {
-    truth.normals.emplace_back(point.normal);
-    truth.depths.push_back(point.state == trace::PixelState::sky
-                               ? 0.0f
-                               : static_cast<float>(glm::dot(forward, point.position - camera.position)));
-  }
+  Truth truth{trace::hard_reference(tracer, points, light).pixels, {}};
+  truth.seen =
+      trace::seen_shadow(tracer, camera, light, points, view::lit_of(truth.verdicts, truth.verdicts.size()));
   return truth;
 }
 
@@ -93,13 +82,12 @@ DrawnErrors drawn(render::Renderer& renderer, const render::PreparedFilter& filt
   options.light = &light;
   renderer.draw(plan, camera, filter, options);
   const FloatImage mask = renderer.mask();
-  const report::MaskErrors errors = report::mask_errors(channel(mask, 0), truth.lit, truth.lit);
+  const report::MaskErrors errors = report::mask_errors(channel(mask, 0), truth.seen.mask, truth.seen.mask);
   const std::vector<std::uint8_t> bytes =
       encode_png(view::misclassified_picture(mask, truth.verdicts, renderer.normals()));
   picture.assign(bytes.begin(), bytes.end());
   pixels = errors.pixels;
-  const ExpectedError expected =
-      expected_error(plan, {camera, truth.lit, truth.depths, {}, truth.normals, truth.occluders.search()});
+  const ExpectedError expected = expected_error(plan, truth.seen.picture());
   return {errors.false_lit + errors.false_shadow, errors.false_lit, errors.false_shadow, expected.share()};
 }
 
