@@ -8,7 +8,7 @@
 
 #include "flight.hpp"
 #include "gnomon/render/perceptual.hpp"
-#include "visible_points.hpp"
+#include "scene_rays.hpp"
 
 namespace gnomon::tool::fly {
 namespace {
@@ -36,14 +36,14 @@ struct Needed {
 
 class Judge {
  public:
-  Judge(const Options& options, const Flight& flight, const VisiblePointsOf& visible_points)
+  Judge(const Options& options, const Flight& flight, const SceneRays& rays)
       : options_(options),
         flight_(flight),
         light_(light_of(options, flight.scene)),
         distances_(distances_of(options, flight, light_)) {
     for (int frame = 0; frame < options.frames; ++frame) {
       cameras_.push_back(camera_of(options, flight, frame));
-      points_.push_back(visible_points(cameras_.back(), light_));
+      points_.push_back(rays.points(cameras_.back(), light_));
     }
   }
 
@@ -99,8 +99,8 @@ class Judge {
 }  // namespace
 
 void choose_perceptual_maps(Options& options, const Flight& flight) {
-  const VisiblePointsOf visible_points(flight.scene);
-  const Judge judge(options, flight, visible_points);
+  const SceneRays rays(flight.scene);
+  const Judge judge(options, flight, rays);
   const int given = options.plan.resolution.max_size;
   Needed needed = judge.size_with(options.plan.warp.warp);
   bool dropped = false;

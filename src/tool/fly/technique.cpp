@@ -14,7 +14,7 @@
 #include "gnomon/report/row.hpp"
 #include "gnomon/scene/caster_work.hpp"
 #include "gnomon/scene/pose.hpp"
-#include "visible_points.hpp"
+#include "scene_rays.hpp"
 #include "visible_surfaces.hpp"
 
 namespace gnomon::tool::fly {
@@ -121,8 +121,7 @@ void choose_technique_of(Options& options, Flight& flight) {
   const Light light = light_of(options, flight.scene);
   const bool plays = flight.animation != kRestPose;
   Scene posed = flight.scene;
-  std::optional<SeenShadowOf> seen_shadow;
-  std::optional<VisiblePointsOf> seen_points;
+  std::optional<SceneRays> rays;
   TechniqueChoice hardest;
   const int frames = std::min(options.frames, kMaxPlanFrames);
   for (int i = 0; i < frames; ++i) {
@@ -131,18 +130,15 @@ void choose_technique_of(Options& options, Flight& flight) {
     const Camera camera = camera_of(options, flight, frame);
     pose_frame(options, flight, frame, nullptr);
     if (plays) apply_pose(flight.pose, posed);
-    if (plays || i == 0) {
-      seen_shadow.emplace(posed);
-      if (!pages.empty()) seen_points.emplace(posed);
-    }
-    const auto shadow = (*seen_shadow)(camera, light);
+    if (plays || i == 0) rays.emplace(posed);
+    const auto shadow = rays->shadow(camera, light);
     TechniqueSet among;
     std::vector<glm::dvec3> points;
     std::vector<std::byte> memory;
     if (!pages.empty()) {
       // As densely as the pages of the flight are planned from.
-      points = (*seen_points)(camera, light, camera.width / VisibleSurfaces::kStride,
-                              camera.height / VisibleSurfaces::kStride);
+      points = rays->points(camera, light, camera.width / VisibleSurfaces::kStride,
+                            camera.height / VisibleSurfaces::kStride);
       memory.resize(page_memory(options.pages.capacity, points.size()));
       among.pages = {pages, points, {}, memory};
     }
