@@ -19,14 +19,17 @@ SCALARS = {"int32_t": ("i32", 4), "uint32_t": ("u32", 4), "int64_t": ("i64", 8),
 
 
 def read_header():
-    """The constants, of each struct its fields as (name, C type, pointer: const, mut or "", dimensions), and of each call what it returns and
-    its parameters as (name, C type)."""
+    """The constants, of each struct its fields as (name, C type, pointer: const, mut, call or "", dimensions), of each call what it returns and
+    its parameters as (name, C type), and the same of each pointer to a call of the caller's."""
     with open(HEADER, encoding="utf-8") as file:
         text = re.sub(r"//[^\n]*", "", file.read())
     constants = {}
     for body in re.findall(r"enum \{([^}]*)\}", text):
         for name, value in re.findall(r"(GNOMON_\w+) = (-?\d+)", body):
             constants[name] = int(value)
+    # A pointer to a call of the caller's.
+    callbacks = {name: (returns, parameters_of(parameters)) for returns, name, parameters in
+                 re.findall(r"typedef (\w+) \(\*(gnomon_\w+)\)\(([^;]*)\);", text)}
     structs = {}
     for name, body in re.findall(r"typedef struct (gnomon_\w+) \{([^}]*)\} \1;", text):
         fields = []
@@ -35,16 +38,20 @@ def read_header():
             for one in names.split(","):
                 pointer, field, dimensions = re.match(r"\s*(\*?)\s*(\w+)((?:\s*\[\w+\])*)$", one).groups()
                 sizes = [constants.get(d) or int(d) for d in re.findall(r"\[(\w+)\]", dimensions)]
-                fields.append((field, kind, pointer and ("const" if constant else "mut"), sizes))
+                fields.append((field, kind, "call" if kind in callbacks else pointer and ("const" if constant else "mut"), sizes))
         structs[name] = fields
     calls = {}
     for returns, name, parameters in re.findall(r"^(?:GNOMON_API|GNOMON_EXPERIMENTAL) ((?:const )?\w+\*?) (gnomon_\w+)\(([^;]*)\);", text, re.M):
-        rows = []
-        for one in ([] if parameters == "void" else parameters.split(",")):
-            kind, parameter, array = re.match(r"\s*(.*?)\s*(\w+)(\[\w+\])?\s*$", one, re.S).groups()
-            rows.append((parameter, kind.replace(" ", "") + ("*" if array else "")))
-        calls[name] = (returns, rows)
-    return constants, structs, calls
+        calls[name] = (returns, parameters_of(parameters))
+    return constants, structs, calls, callbacks
+
+
+def parameters_of(text):
+    rows = []
+    for one in ([] if text == "void" else text.split(",")):
+        kind, parameter, array = re.match(r"\s*(.*?)\s*(\w+)(\[\w+\])?\s*$", one, re.S).groups()
+        rows.append((parameter, kind.replace(" ", "") + ("*" if array else "")))
+    return rows
 
 
 def lay_out(structs, pointer_bytes):
@@ -110,10 +117,12 @@ def python_annotation(kind, count):
     return {"f32": "float", "f64": "float", "ptr": "Any"}.get(kind, "int" if kind in CTYPES else short(kind))
 
 
-def python_text(constants, structs, calls):
+def python_text(constants, structs, calls, callbacks):
     lines = ['"""The structs and constants of the C header. Written by bindings/layout.py."""', "from __future__ import annotations", "",
              "import ctypes", "from typing import Any", ""]
     lines += ["%s = %d" % (name.removeprefix("GNOMON_"), value) for name, value in constants.items()]
+    for name, (returns, parameters) in callbacks.items():
+        lines += ["", "%s: Any = ctypes.CFUNCTYPE(%s)" % (short(name), ", ".join(python_kind(kind) for kind in [returns] + [k for _, k in parameters]))]
     for name, (size, _, rows) in lay_out(structs, 8).items():
         lines += ["", "", "class %s(ctypes.Structure):" % short(name), "    _fields_ = ["]
         for field, kind, _, count in rows:
@@ -138,7 +147,7 @@ def read_comments():
         if before.strip():
             code = (code + " " + before.strip()).strip()
             opens = re.match(r"typedef struct (\w+) \{", code)
-            declares = re.match(r"typedef struct (\w+) \1;|(?:GNOMON_API|GNOMON_EXPERIMENTAL) .*?(gnomon_\w+)\(", code)
+            declares = re.match(r"typedef (?:struct )?\w+ (?:\(\*)?(gnomon_\w+)(?:;|\))|(?:GNOMON_API|GNOMON_EXPERIMENTAL) .*?(gnomon_\w+)\(", code)
             if opens:
                 struct = opens.group(1)
                 named = [struct]
@@ -187,7 +196,11 @@ def rust_kind(kind):
     return "".join(stars) + rust_type(kind)
 
 
-def rust_text(constants, structs, calls):
+def rust_parameters(rows):
+    return ", ".join("%s: %s" % ("r#box" if parameter == "box" else parameter, rust_kind(kind)) for parameter, kind in rows)
+
+
+def rust_text(constants, structs, calls, callbacks):
     comments = read_comments()
 
     def comment(name, indent=""):
@@ -201,18 +214,20 @@ def rust_text(constants, structs, calls):
     for name in sorted(handles):
         lines += [""] + comment(name) + ["#[repr(C)]", "pub struct %s {" % name, "    hidden: [u8; 0],",
                   "    not_send: core::marker::PhantomData<*mut u8>,", "}"]
+    for name, (returns, rows) in callbacks.items():
+        lines += [""] + comment(name) + ['pub type %s = Option<unsafe extern "C" fn(%s) -> %s>;' % (name, rust_parameters(rows), rust_kind(returns))]
     for name, fields in structs.items():
         lines += [""] + comment(name) + ["#[repr(C)]", "#[derive(Clone, Copy, Debug)]", "pub struct %s {" % name]
         for field, kind, pointer, dimensions in fields:
             kind = rust_type(kind)
-            kind = "*%s %s" % (pointer, kind) if pointer else kind
+            kind = "*%s %s" % (pointer, kind) if pointer in ("const", "mut") else kind
             for size in reversed(dimensions):
                 kind = "[%s; %d]" % (kind, size)
             lines += comment((name, field), "    ") + ["    pub %s: %s," % (field, kind)]
         lines.append("}")
     lines += ["", 'extern "C" {']
     for name, (returns, rows) in calls.items():
-        given = ", ".join("%s: %s" % ("r#box" if parameter == "box" else parameter, rust_kind(kind)) for parameter, kind in rows)
+        given = rust_parameters(rows)
         result = rust_kind(returns)
         lines += comment(name, "    ") + ["    pub fn %s(%s)%s;" % (name, given, " -> " + result if result else "")]
     lines += ["}", "", "// Each struct's size, and where its fields lie, as the compiler of C has them (tests/c/layout_test.py).",
@@ -223,12 +238,12 @@ def rust_text(constants, structs, calls):
 
 
 def main():
-    constants, structs, calls = read_header()
+    constants, structs, calls, callbacks = read_header()
     if len(structs) < 20 or len(constants) < 80 or len(calls) < 60:
         sys.exit("the header's structs and calls were not found")
     stale = []
-    for path, text in ((JS, js_text(constants, structs)), (PYTHON, python_text(constants, structs, calls)),
-                       (RUST, rust_text(constants, structs, calls))):
+    for path, text in ((JS, js_text(constants, structs)), (PYTHON, python_text(constants, structs, calls, callbacks)),
+                       (RUST, rust_text(constants, structs, calls, callbacks))):
         if not os.path.isdir(os.path.dirname(path)):
             continue
         old = open(path, encoding="utf-8").read() if os.path.exists(path) else ""

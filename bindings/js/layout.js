@@ -297,7 +297,7 @@ export const structs = {
     },
   },
   shadow_picture: {
-    bytes: 48,
+    bytes: 56,
     fields: {
       size: [0, 'u32', 0],
       reserved: [4, 'u32', 0],
@@ -307,6 +307,9 @@ export const structs = {
       pixel_count: [24, 'i64', 0],
       kernel_texels: [32, 'f64', 0],
       occluder_distances: [40, 'ptr', 0],
+      occluder_search: [44, 'ptr', 0],
+      occluder_scene: [48, 'ptr', 0],
+      normals: [52, 'ptr', 0],
     },
   },
   wrong_pixels: {

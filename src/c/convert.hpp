@@ -6,6 +6,7 @@
 
 #include "c/sized.hpp"
 #include "gnomon/gnomon.hpp"
+#include "gnomon/study/expected_error.hpp"
 
 /// Owns the memory of a CasterSet.
 struct gnomon_caster_set {
@@ -44,6 +45,27 @@ struct Measured {
 [[nodiscard]] const char* to_measured(const gnomon_view* view, const gnomon_scene* scene,
                                       const gnomon_measure_options* options, const gnomon_stats* stats,
                                       Measured& to) noexcept;
+
+/// A picture of the caller's. Not to be copied: the search points to `from`.
+struct SeenPicture {
+  gnomon_shadow_picture from;
+  ShadowPicture shadow;
+};
+[[nodiscard]] const char* to_picture(const gnomon_shadow_picture* from, SeenPicture& to) noexcept;
+/// What a call for expected errors returns. `fault`: what is wrong with its plan; `expect`: from a picture
+/// and a kernel.
+template <class Expect>
+[[nodiscard]] std::int32_t expect_pixels(const char* fault, const gnomon_shadow_picture* picture,
+                                         gnomon_wrong_pixels* pixels, const char** invalid_field,
+                                         const Expect& expect) noexcept {
+  SeenPicture seen;
+  if (fault == nullptr) fault = to_picture(picture, seen);
+  if (fault == nullptr && pixels == nullptr) fault = "pixels";
+  if (fault != nullptr) return refuse(fault, invalid_field);
+  const ExpectedError found = expect(seen.shadow, seen.from.kernel_texels);
+  *pixels = {found.wrong_pixels, found.counted_pixels, found.share()};
+  return done(invalid_field);
+}
 
 /// `count` boxes of six doubles; `name` and `count_name` are those of the two in messages.
 struct BoxList {

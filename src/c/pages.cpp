@@ -220,6 +220,15 @@ int32_t gnomon_measure_pages(const gnomon_page_plan* plan, const gnomon_view* vi
   return done(invalid_field);
 }
 
+int32_t gnomon_expected_page_error(const gnomon_page_plan* plan, const gnomon_shadow_picture* picture,
+                                   gnomon_wrong_pixels* pixels, const char** invalid_field) {
+  const PagePlan* p = nullptr;
+  const char* fault = to_page_plan(plan, p);
+  return expect_pixels(
+      fault, picture, pixels, invalid_field,
+      [&](const ShadowPicture& shadow, double kernel) { return expected_error(*p, shadow, kernel); });
+}
+
 int64_t gnomon_page_table_size(int32_t slots) {
   return slots < 1 || slots > kMaxPages ? 0 : static_cast<int64_t>(page_table_size(slots));
 }

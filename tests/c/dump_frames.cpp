@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <limits>
 #include <random>
 
 #include "in_c.hpp"
@@ -182,10 +183,19 @@ void write_clusters(File& file, const gnomon_camera& camera, std::mt19937_64& ra
   }
 }
 
+/// A roof of slats, `scene`: the way of the light, unit. Bindings have the same in their language.
+double slats(const void* scene, const double point[3]) {
+  const auto* way = static_cast<const double*>(scene);
+  const double up = (6.0 - point[1]) / -way[1];
+  const double at = point[0] - way[0] * up + 0.4 * (point[2] - way[2] * up);
+  return at - 8.0 * std::floor(at / 8.0) < 3.0 ? -std::numeric_limits<double>::infinity() : up;
+}
+
 void write_picture(File& file, const Street& street, const gnomon_camera& camera_in_c, const PlanInC& found) {
   const Camera& camera = street.camera;
   const CameraAxes axes = camera_axes(camera);
-  std::vector<float> mask, depths, distances;
+  const glm::dvec3 way = glm::normalize(street.sun.direction);
+  std::vector<float> mask, depths, distances, normals;
   for (int i = 0; i < kWidth * kHeight; ++i) {
     const double right = camera.left + (camera.right - camera.left) * (i % kWidth + 0.5) / kWidth,
                  up = camera.top + (camera.bottom - camera.top) * (i / kWidth + 0.5) / kHeight;
@@ -193,7 +203,8 @@ void write_picture(File& file, const Street& street, const gnomon_camera& camera
     const double depth = ray.y < 0.0 ? -camera.position.y / ray.y : 0.0;
     const glm::dvec3 at = camera.position + ray * depth;
     depths.push_back(static_cast<float>(depth));
-    mask.push_back(at.x + 0.4 * at.z - 8.0 * std::floor((at.x + 0.4 * at.z) / 8.0) < 3.0 ? 1.0f : 0.0f);
+    mask.push_back(slats(&way.x, &at.x) < 0.0 ? 1.0f : 0.0f);
+    for (const float part : {0.0f, i % 3 == 0 ? 0.0f : 1.0f, 0.0f}) normals.push_back(part);
     distances.push_back(static_cast<float>(i % 9) * 0.125f);
   }
   gnomon_shadow_picture picture;
@@ -202,12 +213,18 @@ void write_picture(File& file, const Street& street, const gnomon_camera& camera
   picture.mask = mask.data();
   picture.view_depths = depths.data();
   picture.pixel_count = kWidth * kHeight;
-  gnomon_wrong_pixels wrong, averaged, biased;
+  gnomon_wrong_pixels wrong, averaged, biased, searched, facing;
   gnomon_expected_error(&found.plan, &picture, &wrong, nullptr);
   picture.kernel_texels = 1.5;
   gnomon_expected_error(&found.plan, &picture, &averaged, nullptr);
   picture.occluder_distances = distances.data();
   gnomon_expected_error(&found.plan, &picture, &biased, nullptr);
+  picture.occluder_search = slats;
+  picture.occluder_scene = &way.x;
+  gnomon_expected_error(&found.plan, &picture, &searched, nullptr);
+  picture.kernel_texels = 0.0;
+  picture.normals = normals.data();
+  gnomon_expected_error(&found.plan, &picture, &facing, nullptr);
   std::vector<double> edges(3 * 200);
   int64_t written = 0;
   gnomon_shadow_edge_points(&picture, edges.data(), 200, &written, nullptr);
@@ -217,10 +234,14 @@ void write_picture(File& file, const Street& street, const gnomon_camera& camera
   file.one(wrong);
   file.one(averaged);
   file.one(biased);
+  for (int i = 0; i < 3; ++i) file.one(way[i]);
+  for (const float part : normals) file.one(part);
+  file.one(searched);
+  file.one(facing);
   file.one(static_cast<std::uint32_t>(written));
   for (std::size_t i = 0; i < static_cast<std::size_t>(3 * written); ++i) file.one(edges[i]);
-  std::printf("%.1f of %.0f pixels wrong, %d points of edges\n", wrong.wrong, wrong.counted,
-              static_cast<int>(written));
+  std::printf("%.1f of %.0f pixels wrong, %.0f by a search, %d points of edges\n", wrong.wrong, wrong.counted,
+              facing.wrong, static_cast<int>(written));
 }
 
 }  // namespace

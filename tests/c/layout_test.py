@@ -31,7 +31,7 @@ def compiles(compiler, text, work):
 def main():
     compiler, work = sys.argv[1], sys.argv[2]
     os.makedirs(work, exist_ok=True)
-    _, structs, _ = layout.read_header()
+    _, structs, _, _ = layout.read_header()
     targets = [([compiler], 8)]
     if shutil.which("clang-16") and os.path.isdir("/usr/include/wasm32-wasi"):
         targets.append((["clang-16", "--target=wasm32-wasi"], 4))

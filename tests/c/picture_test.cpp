@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <random>
 
@@ -114,6 +115,106 @@ TEST(PictureInC, plans_are_expected_to_get_the_pixels_of_cpp_wrong) {
     street.distances[random() % street.distances.size()] = odd[random() % 7];
   }
   expect_same(street, street.plan({}));
+}
+
+/// A roof of slats, as each side searches it.
+struct Slats {
+  glm::dvec3 way = glm::normalize(glm::dvec3(0.4, -1, 0.3));
+  mutable int searches = 0;
+
+  [[nodiscard]] double distance(const glm::dvec3& point) const {
+    ++searches;
+    const double up = (6.0 - point.y) / -way.y;
+    const glm::dvec3 at = point - way * up;
+    return std::sin(at.x + 0.4 * at.z) > 0.3 ? -std::numeric_limits<double>::infinity() : up;
+  }
+  static double from_c(const void* slats, const double point[3]) {
+    return static_cast<const Slats*>(slats)->distance({point[0], point[1], point[2]});
+  }
+  [[nodiscard]] OccluderSearch from_cpp() const {
+    return {[](const void* slats, const glm::dvec3& point) noexcept {
+              return static_cast<const Slats*>(slats)->distance(point);
+            },
+            this};
+  }
+  /// The street's shadow becomes that of the slats.
+  void shade(Street& street) const {
+    const CameraAxes axes = camera_axes(street.camera);
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+      const Camera& c = street.camera;
+      const auto pixel = static_cast<std::size_t>(i);
+      const glm::dvec3 ray = axes.forward +
+                             axes.right * (c.left + (c.right - c.left) * (i % kWidth + 0.5) / kWidth) +
+                             axes.up * (c.top + (c.bottom - c.top) * (i / kWidth + 0.5) / kHeight);
+      const double depth = static_cast<double>(street.depths[pixel]);
+      street.mask[pixel] = distance(c.position + ray * depth) > 0.0 ? 0.0f : 1.0f;
+    }
+    street.picture.occluder_search = from_c;
+    street.picture.occluder_scene = this;
+  }
+};
+
+TEST(PictureInC, a_search_gives_the_pixels_of_cpp) {
+  Street street;
+  const Slats slats;
+  slats.shade(street);
+  PlanOptions options;
+  options.resolution.max_size = 256;
+  const ShadowPlan plan = street.plan(options);
+  // Facing up, as the floor does; a third of them not known, some broken.
+  std::vector<glm::vec3> normals(street.mask.size(), glm::vec3(0, 1, 0));
+  for (std::size_t i = 0; i < normals.size(); i += 3) normals[i] = glm::vec3(i % 2 == 0 ? 0.0f : kNan);
+  double last = -1.0;
+  for (const double kernel : {0.0, 1.5, 4.0}) {
+    for (const bool facing : {false, true}) {
+      street.picture.kernel_texels = kernel;
+      street.picture.normals = facing ? &normals[0].x : nullptr;
+      ShadowPicture shadow = street.shadow();
+      shadow.occluders = slats.from_cpp();
+      if (facing) shadow.normals_world = normals;
+      const ExpectedError expected = expected_error(plan, shadow, kernel);
+      gnomon_wrong_pixels pixels;
+      slats.searches = 0;
+      ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &pixels, nullptr), GNOMON_OK);
+      EXPECT_GT(slats.searches, 1000);
+      EXPECT_EQ(std::memcmp(&pixels.wrong, &expected.wrong_pixels, sizeof(double)), 0) << kernel;
+      EXPECT_EQ(pixels.counted, expected.counted_pixels);
+      EXPECT_GT(pixels.wrong, 0.0);
+      if (!facing) {
+        EXPECT_NE(pixels.wrong, last) << "the kernel is not passed";
+        last = pixels.wrong;
+      }
+    }
+  }
+  // What the picture alone shows is something else, and distances change nothing beside a search.
+  street.picture.kernel_texels = 0.0;
+  street.picture.normals = nullptr;
+  gnomon_wrong_pixels searched, beside, alone;
+  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &searched, nullptr), GNOMON_OK);
+  street.picture.occluder_distances = street.distances.data();
+  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &beside, nullptr), GNOMON_OK);
+  EXPECT_EQ(std::memcmp(&searched, &beside, sizeof beside), 0);
+  street.picture.occluder_search = nullptr;
+  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &alone, nullptr), GNOMON_OK);
+  EXPECT_NE(alone.wrong, searched.wrong);
+}
+
+TEST(PictureInC, searches_that_answer_nonsense_give_a_share) {
+  Street street;
+  Slats().shade(street);
+  street.plan({});
+  std::mt19937_64 random(12);
+  street.picture.occluder_scene = &random;
+  street.picture.occluder_search = [](const void* scene, const double*) {
+    auto& bits = *static_cast<std::mt19937_64*>(const_cast<void*>(scene));
+    return std::bit_cast<double>(bits());
+  };
+  for (const double kernel : {0.0, 2.0}) {
+    street.picture.kernel_texels = kernel;
+    gnomon_wrong_pixels pixels;
+    ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &pixels, nullptr), GNOMON_OK);
+    EXPECT_TRUE(pixels.share > 0.1 && pixels.share < 1.0) << pixels.share;
+  }
 }
 
 TEST(PictureInC, a_plan_without_maps_gets_all_that_is_dark_wrong) {

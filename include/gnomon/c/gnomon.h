@@ -25,8 +25,9 @@
 // - The world is right-handed unless gnomon_clip_space says otherwise. Lengths are in world units,
 //   angles in radians.
 // - Flags are int32_t: 0 is false, anything else true. Numbers beyond 1e30 and not-a-number are refused.
-// - Equal input gives equal bits, on every compiler and processor. No call has global state, sets errno,
-//   throws, or calls back. Calls on different handles may run on different threads.
+// - Equal input gives equal bits, on every compiler and processor. No call has global state, sets errno or
+//   throws. None calls back but by gnomon_occluder_search. Calls on different handles may run on different
+//   threads.
 // - A call takes up to 512 kB of stack, and gnomon_make_plan 256 kB. Give threads and WebAssembly
 //   modules as much.
 //
@@ -716,6 +717,13 @@ GNOMON_API int32_t gnomon_measure_points(const gnomon_map* map, const gnomon_cam
                                          const double* points, const double* normals, int64_t count,
                                          gnomon_point_error* errors, const char** invalid_field);
 
+/// Finds what lies between any point of space and the light, as a map finds it: by rays. Returns the distance
+/// along the light from `point` (x, y, z, world space) to the occluder nearest the light, world units:
+/// negative where that lies beyond the point, -infinity where there is none. Not a number counts as that.
+/// `scene`: gnomon_shadow_picture::occluder_scene. It may make other calls of gnomon. It must return: no
+/// exception and no jump may leave it.
+typedef double (*gnomon_occluder_search)(const void* scene, const double point[3]);
+
 /// A shadow as a camera sees it: of other maps, of the last frame, or of rays.
 typedef struct gnomon_shadow_picture {
   uint32_t size;                ///< set by gnomon_shadow_picture_default
@@ -729,13 +737,21 @@ typedef struct gnomon_shadow_picture {
   /// Required; default NULL.
   const float* view_depths;
   int64_t pixel_count;  ///< entries of each: the camera's width times height
-  /// gnomon_expected_error alone reads it: half side of the box of texels whose comparisons the filter
-  /// averages. 0, the default, less, and not a number: one texel, hard comparison. More than 33 count as 33.
+  // Expected errors alone read what follows.
+  /// Half side of the box of texels whose comparisons the filter averages. 0, the default, less, and not a
+  /// number: one texel, hard comparison. More than 33 count as 33.
   double kernel_texels;
-  /// gnomon_expected_error alone reads it: for each dark pixel the distance along the light from the surface
-  /// to the occluder nearest the light, world units. A bias that is longer lights the surface. Negative, not
-  /// a number: not known there. NULL, the default: not known, and errors of the bias do not count.
+  /// For each dark pixel the distance along the light from the surface to the occluder nearest the light,
+  /// world units. A bias that is longer lights the surface. Negative, not a number: not known there. NULL,
+  /// the default: not known, and errors of the bias do not count. Not read beside occluder_search.
   const float* occluder_distances;
+  /// Searches what casts shadows in the picture's light. With it errors are those of the maps' own
+  /// comparisons, also where the picture does not show the middle of a texel. NULL, the default: none.
+  gnomon_occluder_search occluder_search;
+  const void* occluder_scene;  ///< handed to it; default NULL
+  /// Beside occluder_search: normals of the surfaces, unit, towards the viewer, three numbers for each pixel.
+  /// Zero there, and NULL, the default: from view_depths.
+  const float* normals;
 } gnomon_shadow_picture;
 /// Fills in defaults. `size`: sizeof *picture.
 GNOMON_EXPERIMENTAL int32_t gnomon_shadow_picture_default(gnomon_shadow_picture* picture, uint32_t size);
@@ -746,11 +762,16 @@ typedef struct gnomon_wrong_pixels {
   double counted;  ///< pixels that have a surface, and are lit or dark
   double share;    ///< wrong over counted, in 0..1; 0 where none counts
 } gnomon_wrong_pixels;
-/// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. Each pixel
-/// takes the shadow at the middle of its texel, where the texel meets the surface. Light that the
-/// plan's bias lets in counts where occluder_distances are known. Shadows narrower than a pixel count less
-/// than they should: the picture should be as fine as the texels. A plan without maps gets all that is dark
-/// wrong. Foreign matrices serve as in gnomon_measure. Time grows with the pixels.
+/// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. A plan
+/// without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure. Time grows with the
+/// pixels.
+///
+/// With occluder_search each pixel is compared with what lies on the light's ray through the middle of its
+/// texel, on the plane of its surface. Neighbours that read one texel search it once.
+///
+/// Without, each pixel takes the shadow that the picture shows at the middle of its texel, where the texel
+/// meets the surface. Light that the plan's bias lets in counts where occluder_distances are known. Shadows
+/// narrower than a pixel count less than they should: the picture should be as fine as the texels.
 GNOMON_EXPERIMENTAL int32_t gnomon_expected_error(const gnomon_plan* plan,
                                                   const gnomon_shadow_picture* picture,
                                                   gnomon_wrong_pixels* pixels, const char** invalid_field);
@@ -867,6 +888,12 @@ GNOMON_EXPERIMENTAL int32_t gnomon_measure_pages(const gnomon_page_plan* plan, c
                                                  const gnomon_scene* scene,
                                                  const gnomon_measure_options* options, gnomon_stats* stats,
                                                  double* texels_per_pixel, const char** invalid_field);
+/// gnomon_expected_error in the pages that serve the points of the picture. A point without a page is drawn
+/// as lit.
+GNOMON_EXPERIMENTAL int32_t gnomon_expected_page_error(const gnomon_page_plan* plan,
+                                                       const gnomon_shadow_picture* picture,
+                                                       gnomon_wrong_pixels* pixels,
+                                                       const char** invalid_field);
 
 /// One slot of a pool that keeps pages from frame to frame: set it to zeros, and then leave it to
 /// gnomon_keep_pages. Its size is fixed.

@@ -95,6 +95,8 @@ LIGHT_BELOW_LEAST_SIZE = 1
 LIGHT_WITHOUT_RECEIVER = 2
 LIGHT_WITHOUT_CASTER = 3
 
+occluder_search: Any = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)
+
 
 class clip_space(ctypes.Structure):
     _fields_ = [
@@ -656,6 +658,9 @@ class shadow_picture(ctypes.Structure):
         ("pixel_count", ctypes.c_int64),
         ("kernel_texels", ctypes.c_double),
         ("occluder_distances", ctypes.c_void_p),
+        ("occluder_search", ctypes.c_void_p),
+        ("occluder_scene", ctypes.c_void_p),
+        ("normals", ctypes.c_void_p),
     ]
     size: int
     reserved: int
@@ -665,9 +670,12 @@ class shadow_picture(ctypes.Structure):
     pixel_count: int
     kernel_texels: float
     occluder_distances: Any
+    occluder_search: Any
+    occluder_scene: Any
+    normals: Any
 
 
-assert ctypes.sizeof(shadow_picture) == 56
+assert ctypes.sizeof(shadow_picture) == 80
 
 
 class wrong_pixels(ctypes.Structure):
@@ -1084,6 +1092,7 @@ calls: dict[str, tuple[Any, list[tuple[str, Any]]]] = {
     "gnomon_page_map": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("page", ctypes.c_int64), ("map", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_page_select": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("points", ctypes.c_void_p), ("count", ctypes.c_int64), ("indices", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_measure_pages": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("view", ctypes.c_void_p), ("scene", ctypes.c_void_p), ("options", ctypes.c_void_p), ("stats", ctypes.c_void_p), ("texels_per_pixel", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
+    "gnomon_expected_page_error": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("picture", ctypes.c_void_p), ("pixels", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_page_table_size": (ctypes.c_int64, [("slots", ctypes.c_int32)]),
     "gnomon_keep_pages": (ctypes.c_int32, [("plan", ctypes.c_void_p), ("moved", ctypes.c_void_p), ("moved_count", ctypes.c_int64), ("slots", ctypes.c_void_p), ("slot_count", ctypes.c_int32), ("table", ctypes.c_void_p), ("kept", ctypes.c_void_p), ("drawn", ctypes.c_void_p), ("invalid_field", ctypes.c_void_p)]),
     "gnomon_light_request_default": (ctypes.c_int32, [("request", ctypes.c_void_p), ("size", ctypes.c_uint32)]),

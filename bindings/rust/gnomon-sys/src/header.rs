@@ -209,6 +209,9 @@ pub struct gnomon_light_history {
     not_send: core::marker::PhantomData<*mut u8>,
 }
 
+/// Finds what lies between any point of space and the light, as a map finds it: by rays. Returns the distance along the light from `point` (x, y, z, world space) to the occluder nearest the light, world units: negative where that lies beyond the point, -infinity where there is none. Not a number counts as that. `scene`: gnomon_shadow_picture::occluder_scene. It may make other calls of gnomon. It must return: no exception and no jump may leave it.
+pub type gnomon_occluder_search = Option<unsafe extern "C" fn(scene: *const core::ffi::c_void, point: *const f64) -> f64>;
+
 /// Clip space of matrices. All zero: OpenGL. Its size is fixed.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
@@ -735,10 +738,16 @@ pub struct gnomon_shadow_picture {
     pub view_depths: *const f32,
     /// entries of each: the camera's width times height
     pub pixel_count: i64,
-    /// gnomon_expected_error alone reads it: half side of the box of texels whose comparisons the filter averages. 0, the default, less, and not a number: one texel, hard comparison. More than 33 count as 33.
+    /// Half side of the box of texels whose comparisons the filter averages. 0, the default, less, and not a number: one texel, hard comparison. More than 33 count as 33.
     pub kernel_texels: f64,
-    /// gnomon_expected_error alone reads it: for each dark pixel the distance along the light from the surface to the occluder nearest the light, world units. A bias that is longer lights the surface. Negative, not a number: not known there. NULL, the default: not known, and errors of the bias do not count.
+    /// For each dark pixel the distance along the light from the surface to the occluder nearest the light, world units. A bias that is longer lights the surface. Negative, not a number: not known there. NULL, the default: not known, and errors of the bias do not count. Not read beside occluder_search.
     pub occluder_distances: *const f32,
+    /// Searches what casts shadows in the picture's light. With it errors are those of the maps' own comparisons, also where the picture does not show the middle of a texel. NULL, the default: none.
+    pub occluder_search: gnomon_occluder_search,
+    /// handed to it; default NULL
+    pub occluder_scene: *const core::ffi::c_void,
+    /// Beside occluder_search: normals of the surfaces, unit, towards the viewer, three numbers for each pixel. Zero there, and NULL, the default: from view_depths.
+    pub normals: *const f32,
 }
 
 /// The pixels that a plan will get wrong. Its size is fixed.
@@ -1174,7 +1183,7 @@ extern "C" {
     pub fn gnomon_measure_points(map: *const gnomon_map, camera: *const gnomon_camera, points: *const f64, normals: *const f64, count: i64, errors: *mut gnomon_point_error, invalid_field: *mut *const c_char) -> i32;
     /// Fills in defaults. `size`: sizeof *picture.
     pub fn gnomon_shadow_picture_default(picture: *mut gnomon_shadow_picture, size: u32) -> i32;
-    /// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. Each pixel takes the shadow at the middle of its texel, where the texel meets the surface. Light that the plan's bias lets in counts where occluder_distances are known. Shadows narrower than a pixel count less than they should: the picture should be as fine as the texels. A plan without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure. Time grows with the pixels.
+    /// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. A plan without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure. Time grows with the pixels. With occluder_search each pixel is compared with what lies on the light's ray through the middle of its texel, on the plane of its surface. Neighbours that read one texel search it once. Without, each pixel takes the shadow that the picture shows at the middle of its texel, where the texel meets the surface. Light that the plan's bias lets in counts where occluder_distances are known. Shadows narrower than a pixel count less than they should: the picture should be as fine as the texels.
     pub fn gnomon_expected_error(plan: *const gnomon_plan, picture: *const gnomon_shadow_picture, pixels: *mut gnomon_wrong_pixels, invalid_field: *mut *const c_char) -> i32;
     /// Writes points of the surfaces along the shadow's edges, world space, three doubles each. At most `room` of them, evenly over the picture; `*written` is how many. A plan for them (gnomon_view::points) has its texels where they show. Give such a plan visible points as well: maps reach no farther than its points.
     pub fn gnomon_shadow_edge_points(picture: *const gnomon_shadow_picture, points: *mut f64, room: i64, written: *mut i64, invalid_field: *mut *const c_char) -> i32;
@@ -1196,6 +1205,8 @@ extern "C" {
     pub fn gnomon_page_select(plan: *const gnomon_page_plan, points: *const f64, count: i64, indices: *mut i32, invalid_field: *mut *const c_char) -> i32;
     /// Measures the error in the pages that serve what the view sees. `texels_per_pixel`: pages without borders over the pixels of the camera; may be NULL. Otherwise as gnomon_measure.
     pub fn gnomon_measure_pages(plan: *const gnomon_page_plan, view: *const gnomon_view, scene: *const gnomon_scene, options: *const gnomon_measure_options, stats: *mut gnomon_stats, texels_per_pixel: *mut f64, invalid_field: *mut *const c_char) -> i32;
+    /// gnomon_expected_error in the pages that serve the points of the picture. A point without a page is drawn as lit.
+    pub fn gnomon_expected_page_error(plan: *const gnomon_page_plan, picture: *const gnomon_shadow_picture, pixels: *mut gnomon_wrong_pixels, invalid_field: *mut *const c_char) -> i32;
     /// Entries of the table that gnomon_keep_pages needs; 0 where `slots` is out of range.
     pub fn gnomon_page_table_size(slots: i32) -> i64;
     /// Finds the pages that a pool still holds, and a slot for each of the others. `moved`: boxes of casters that changed since the last call, where they were and where they are. `slots`: the pool, `slot_count` of them, at least one for each page. `table`: gnomon_page_table_size entries. `kept`: one for each page. `*drawn`: pages to draw; may be NULL.
@@ -1258,7 +1269,7 @@ macro_rules! each_layout {
         $check!(gnomon_measure_options, 24, size: 0, map: 4, columns: 8, rows: 12, depths: 16, reserved: 20);
         $check!(gnomon_stats, 72, size: 0, reserved: 4, p50: 8, p95: 16, max: 24, mean: 32, share_undersampled: 40, storage: 48, samples: 56, outside: 64);
         $check!(gnomon_point_error, 88, status: 0, reserved: 4, m_max: 8, m_min: 16, m_s: 24, m_t: 32, m_area: 40, anisotropy: 48, perspective_max: 56, perspective_s: 64, perspective_t: 72, projection: 80);
-        $check!(gnomon_shadow_picture, 56, size: 0, reserved: 4, camera: 8, mask: 16, view_depths: 24, pixel_count: 32, kernel_texels: 40, occluder_distances: 48);
+        $check!(gnomon_shadow_picture, 80, size: 0, reserved: 4, camera: 8, mask: 16, view_depths: 24, pixel_count: 32, kernel_texels: 40, occluder_distances: 48, occluder_search: 56, occluder_scene: 64, normals: 72);
         $check!(gnomon_wrong_pixels, 24, wrong: 0, counted: 8, share: 16);
         $check!(gnomon_page_options, 72, size: 0, policy: 4, plan: 8, page_texels: 16, capacity: 20, target_m: 24, share: 32, levels_per_octave: 40, trials: 44, virtual_texels: 48, fallback: 52, reach_texels: 56, least_light_sine: 64);
         $check!(gnomon_page, 20, level: 0, column: 4, row: 8, slot: 12, points: 16);
