@@ -1,5 +1,5 @@
 // How do plans, histories and errors go through the C interface of a module? index.d.ts is the manual.
-import { GnomonError, Memory, constants, numbersOf, structs, wholeOf } from './memory.js';
+import { GnomonError, Memory, constants, numberOf, numbersOf, structs, wholeOf } from './memory.js';
 
 const MAPS = constants.MAX_MAPS;
 const OMISSIONS = constants.MAX_OMISSIONS;
@@ -39,6 +39,9 @@ export class Handle {
 }
 
 export class History extends Handle {
+  constructor(gnomon) {
+    super(gnomon, 'gnomon_history_destroy', gnomon.memory.exports.gnomon_history_create());
+  }
   clear() {
     this.gnomon.memory.exports.gnomon_history_clear(this.place());
   }
@@ -78,18 +81,18 @@ export class CasterSet extends Handle {
 }
 
 /** Numbers in one typed or plain array, `each` at a time. */
-function flatten(values, each, name) {
+export function flatten(values, each, name) {
   const nested = Array.isArray(values) && typeof values[0] === 'object';
   const flat = nested ? values.flatMap((one) => Array.from(exactly(one, each, name))) : numbersOf(values, name);
   if (flat.length % each !== 0) throw new GnomonError(name, `gnomon: ${name}: expected ${each} numbers each`);
   return flat;
 }
-function exactly(values, count, name) {
+export function exactly(values, count, name) {
   const flat = numbersOf(values, name);
   if (flat.length !== count) throw new GnomonError(name, `gnomon: ${name}: expected ${count} numbers`);
   return flat;
 }
-function objectOf(value, name) {
+export function objectOf(value, name) {
   if (value === null || typeof value !== 'object') throw new GnomonError(name, `gnomon: ${name}: expected an object`);
   return value;
 }
@@ -99,6 +102,8 @@ const SAMPLES = 16384;
 export const pointCount = ({ points }) => (points === undefined ? SAMPLES : points.length / 3);
 export const boxesOf = (values, name) => flatten(values, 6, name);
 export const pointsOf = (values, name) => flatten(values, 3, name);
+/** View depths of pixels, or those that were counted before. */
+export const depthsOf = (values, name) => (values?.count === undefined ? numbersOf(values, name) : values);
 
 const PLAN_KEYS = ['camera', 'light', 'casters', 'receivers', 'points', 'normals', 'depths', 'options', 'history'];
 
@@ -140,7 +145,7 @@ export class Gnomon {
   }
 
   history() {
-    return new History(this, 'gnomon_history_destroy', this.memory.exports.gnomon_history_create());
+    return new History(this);
   }
 
   casterSet(boxes) {
@@ -160,9 +165,7 @@ export class Gnomon {
     return this.image('gnomon_orthographic', 'height_world', objectOf(image, 'camera').heightWorld, image);
   }
   image(make, name, size, { position, forward, up, aspect = 1, near = 0.1, far = 100, width = 1920, height = 1080 }) {
-    for (const [field, value] of [[name, size], ['aspect', aspect], ['near_depth', near], ['far_depth', far]]) {
-      if (typeof value !== 'number') throw new GnomonError(field, `gnomon: ${field}: expected a number`);
-    }
+    for (const [field, value] of [[name, size], ['aspect', aspect], ['near_depth', near], ['far_depth', far]]) numberOf(value, field);
     wholeOf(width, 'width');
     wholeOf(height, 'height');
     return this.call(0, (memory, check) => {
@@ -179,9 +182,7 @@ export class Gnomon {
     wholeOf(height, 'height');
     return this.call(0, (memory, check) => {
       const at = memory.struct('camera');
-      const space = memory.allocate(structs.clip_space.bytes);
-      memory.clear(space, structs.clip_space.bytes);
-      memory.write('clip_space', space, clipSpace);
+      const space = this.writeFixed(memory, 'clip_space', clipSpace);
       const view = memory.numbers(exactly(viewFromWorld, 16, 'view_from_world'));
       const clip = memory.numbers(exactly(clipFromView, 16, 'clip_from_view'));
       const why = memory.allocate(4);
@@ -193,6 +194,14 @@ export class Gnomon {
       }
       return memory.read('camera', at);
     });
+  }
+
+  /** Writes a struct whose size is fixed; what `object` has nothing of is zero. */
+  writeFixed(memory, struct, object) {
+    const at = memory.allocate(structs[struct].bytes);
+    memory.clear(at, structs[struct].bytes);
+    memory.write(struct, at, object);
+    return at;
   }
 
   /** Writes camera, view, light and scene; what is not given is not written. */
@@ -232,15 +241,16 @@ export class Gnomon {
   writeDepths(memory, depths) {
     const at = memory.allocate(structs.visible_depths.bytes);
     memory.exports.gnomon_visible_depths_clear(at);
-    memory.exports.gnomon_visible_depths_add(at, memory.numbers(depths, 'f32'), BigInt(depths.length), 0);
+    if (depths.count !== undefined) memory.write('visible_depths', at, depths);
+    else memory.exports.gnomon_visible_depths_add(at, memory.numbers(depths, 'f32'), BigInt(depths.length), 0);
     return at;
   }
 
   /** Input with flat lists, and the bytes that it takes. */
-  prepare(input) {
+  prepare(input, keys = PLAN_KEYS) {
     objectOf(input, 'input');
     for (const key of Object.keys(input)) {
-      if (!PLAN_KEYS.includes(key) && input[key] !== undefined) throw new GnomonError(key, `gnomon: there is no input '${key}'`);
+      if (!keys.includes(key) && input[key] !== undefined) throw new GnomonError(key, `gnomon: there is no input '${key}'`);
     }
     const ready = { ...input };
     let bytes = 8192;
@@ -256,12 +266,20 @@ export class Gnomon {
       ready[key] = pointsOf(input[key], `view.${key}`);
       bytes += 8 * ready[key].length;
     }
-    if (input.depths !== undefined) bytes += 4 * (ready.depths = numbersOf(input.depths, 'view.depths')).length;
+    if (input.depths !== undefined) bytes += 4 * ((ready.depths = depthsOf(input.depths, 'view.depths')).length ?? 0);
     return { ready, bytes };
   }
 
   plan(input) {
     const { ready, bytes } = this.prepare(input);
+    return this.planBy(ready, bytes, (memory, at, options, plan, field) => {
+      const history = ready.history === undefined ? 0 : this.placeOf(ready.history, History, 'history');
+      return memory.exports.gnomon_make_plan(at.view, at.light, at.scene, options, history, plan, field);
+    });
+  }
+
+  /** A plan by the call that `make` makes. */
+  planBy(ready, bytes, make) {
     const results = MAPS * structs.map.bytes + OMISSIONS * structs.omission.bytes;
     return this.call(bytes + results, (memory, check) => {
       const at = this.writeInput(memory, ready);
@@ -276,8 +294,7 @@ export class Gnomon {
       memory.integer('plan', plan, 'map_room', MAPS);
       memory.pointer('plan', plan, 'omissions', omissions);
       memory.integer('plan', plan, 'omission_room', OMISSIONS);
-      const history = ready.history === undefined ? 0 : this.placeOf(ready.history, History, 'history');
-      check((field) => memory.exports.gnomon_make_plan(at.view, at.light, at.scene, options, history, plan, field));
+      check((field) => make(memory, at, options, plan, field));
       return this.readPlan(memory, plan, maps, omissions);
     });
   }
@@ -293,10 +310,14 @@ export class Gnomon {
 
   readPlan(memory, at, maps, omissions) {
     const { mapSize, mapRoom, omissionRoom, mapCount, omissionCount, ...plan } = memory.read('plan', at);
-    plan.maps = Array.from({ length: mapCount }, (_, i) => memory.read('map', maps + i * structs.map.bytes));
+    plan.maps = this.readMaps(memory, maps, mapCount);
     plan.omitted = Array.from({ length: Math.min(omissionCount, OMISSIONS) }, (_, i) =>
       this.readOmission(memory, omissions + i * structs.omission.bytes));
     return plan;
+  }
+
+  readMaps(memory, maps, count) {
+    return Array.from({ length: count }, (_, i) => memory.read('map', maps + i * structs.map.bytes));
   }
 
   readOmission(memory, at) {
@@ -409,9 +430,7 @@ export class Gnomon {
         memory.write('map', at, map);
         return at;
       });
-      const space = memory.allocate(structs.clip_space.bytes);
-      memory.clear(space, structs.clip_space.bytes);
-      memory.write('clip_space', space, clipSpace);
+      const space = this.writeFixed(memory, 'clip_space', clipSpace);
       const reuse = memory.allocate(structs.reuse.bytes);
       check((field) => memory.exports.gnomon_compare(maps[0], maps[1], space, reuse, field));
       const { kind, stripCount, strip, ...rest } = memory.read('reuse', reuse);
@@ -433,9 +452,7 @@ export class Gnomon {
 
   textureFromClip(clipSpace = {}) {
     return this.call(256, (memory) => {
-      const space = memory.allocate(structs.clip_space.bytes);
-      memory.clear(space, structs.clip_space.bytes);
-      memory.write('clip_space', space, clipSpace);
+      const space = this.writeFixed(memory, 'clip_space', clipSpace);
       const at = memory.allocate(128);
       memory.exports.gnomon_texture_from_clip(space, at);
       return memory.copy(at, 'f64', 16);

@@ -1,8 +1,10 @@
-// Pages and many lights besides all that index.d.ts has: the types of gnomon/full, which loads a larger module.
+// All calls of the C interface, besides what index.d.ts has: the types of gnomon/full, which loads a larger module.
 import { GnomonError } from './index.js';
-import type { BoxList, Camera, Gnomon, Light, Omission, PlanOptions, PointList, ShadowMap, Stats, ViewInput } from './index.js';
+import type { BoxList, Camera, CasterSet, ClipSpace, Gnomon, History, Light, Omission, Plan, PlanInput, PlanOptions, PlanResult, PointList,
+  ShadowMap, Stats, TexelRect, Vector3, ViewInput, VisibleDepths } from './index.js';
 
 export { GnomonError };
+export type { TexelRect };
 
 /** Options of planPages. Names and ranges: `gnomon_page_options` of the C header. */
 export interface PageOptions {
@@ -118,7 +120,6 @@ export interface LightRequest {
   draws?: number;
   triangles?: number;
 }
-export interface TexelRect { x: number; y: number; width: number; height: number }
 export interface LightMaps {
   outcome: 'mapped' | 'belowLeastSize' | 'withoutReceiver' | 'withoutCaster';
   /** Along each side of each map; 0: none. */
@@ -171,7 +172,86 @@ export interface LightClusters {
   lights: Uint32Array;
 }
 
-export interface FullGnomon extends Omit<Gnomon, 'names'> {
+/** Where maps lie in one texture; no two share a texel. */
+export interface Atlas {
+  /** Texels; 0: there is no map, or the maps do not fit. */
+  width: number;
+  height: number;
+  /** By index of the map in the plan: all of the plan's, or none. */
+  places: TexelRect[];
+  /** Texels of the maps over those of the texture, in 0..1. */
+  efficiency: number;
+}
+
+/** A bias in an engine's units. All of it is towards the light. */
+export interface EngineBias {
+  /** Of the map's depth, 0..1. */
+  depth: number;
+  /** Times the larger growth of depth over a texel, along the map's x or y. */
+  slopeFactor: number;
+  /** Along the normal, world units. */
+  normalWorld: number;
+  /** `depth` in units of rasterizer states: steps of the map's format. */
+  units: number;
+}
+
+/** The decision of holdSun. */
+export interface HeldSun {
+  /** To plan with: the held one, or the sun's own, bit for bit. */
+  direction: Float64Array;
+  /** Largest error of the points that were read, screen pixels. */
+  errorPixels: number;
+  /** Error of the point that turned it, above the bound; 0: none did. */
+  turnedPixels: number;
+  /** Points that the light grazes more than leastLightSine: not evaluated. */
+  pointsCapped: number;
+}
+
+/** Visible depths that are followed from frame to frame. Freed with the object, or at once by dispose(). */
+export interface DepthTracker {
+  /** Takes the depths of the next frame, and returns those to plan with. A frame that shows nothing changes nothing. */
+  update(frame: ArrayLike<number> | VisibleDepths): VisibleDepths & { count: Uint32Array };
+  /** Forgets all frames: call it at a cut. */
+  clear(): void;
+  dispose(): void;
+}
+
+/** A history that a frame can be tried with twice. */
+export interface FullHistory extends History {
+  copy(): FullHistory;
+}
+
+/** A shadow as a camera sees it: of other maps, of the last frame, or of rays. Lists go along rows from top to bottom. */
+export interface ShadowPicture {
+  /** Its width and height are those of the picture. */
+  camera: Camera;
+  /** A number for each pixel: 1 lit .. 0 in shadow. Negative, above 1 and NaN: not counted. */
+  mask: ArrayLike<number>;
+  /** View depths of the surfaces, as many, world units. 0, less, Infinity and NaN: no surface. */
+  viewDepths: ArrayLike<number>;
+  /** Half side of the box of texels whose comparisons the filter averages; default 0: one texel. */
+  kernelTexels?: number;
+  /** For each dark pixel the distance along the light to the occluder nearest the light, world units. Negative and NaN: not known. */
+  occluderDistances?: ArrayLike<number>;
+  /**
+   * Searches what casts shadows: the distance along the light from a point, world space, to the occluder nearest the light.
+   * Negative where that lies beyond the point, -Infinity where there is none. With it errors are those of the maps' own
+   * comparisons. It may call gnomon, but start no other search. Its exceptions leave expectedError unchanged.
+   */
+  occluderSearch?: (x: number, y: number, z: number) => number;
+  /** Beside occluderSearch: unit normals towards the viewer, three numbers for each pixel. Zero and default: from viewDepths. */
+  normals?: PointList;
+}
+export interface WrongPixels {
+  /** Lit and dark pixels that are taken for each other; no whole number. */
+  wrong: number;
+  /** Pixels that have a surface, and are lit or dark. */
+  counted: number;
+  /** wrong over counted, in 0..1; 0 where none counts. */
+  share: number;
+}
+
+export interface FullGnomon extends Omit<Gnomon, 'names' | 'history'> {
   names(list: Parameters<Gnomon['names']>[0] | 'pagePolicies'): Array<{ name: string; summary: string }>;
   /**
    * Chooses the pages of a virtual map that the view's points need. history: the last frame's plan, and bits of what the picture
@@ -185,11 +265,51 @@ export interface FullGnomon extends Omit<Gnomon, 'names'> {
   lightHistory(lights: number): LightHistory;
   /** Options for the plan of one light that is due: maps of its size. */
   lightPlanOptions(options: LightOptions, light: LightMaps): PlanOptions;
+  /** The pool as the atlas of one light's maps. */
+  lightAtlas(plan: LightPlan, light: number): Atlas;
   /** A camera that sees all that a local light can light, for maps that serve several frames. */
   cameraRound(light: Light, camera: Camera): Required<Camera>;
   /** Lists of the lights that can light a surface in each cluster of the view. room: entries of all lists; fewer make clusters larger. */
   clusterLights(input: { camera: Camera; lights: Light[]; tilePixels?: number; depthSlices?: number; room?: number }): LightClusters;
+
+  history(): FullHistory;
+  /** Chooses the maps that 1..8 cameras share: two eyes, a split screen, faces of a probe. Its origin is the mean of the eyes. */
+  planViews(input: Omit<PlanInput, 'camera' | 'points' | 'normals' | 'depths' | 'history'> & { cameras: ReadonlyArray<Camera> }): PlanResult;
+  /** Places the maps of a plan into a texture. Both 0, the default: into the smallest one whose sides are powers of two. */
+  packAtlas(plan: Plan, width?: number, height?: number): Atlas;
+  /** From the clip space of a map to its part of the atlas and depth in 0..1. Draw the map with its place as the viewport. */
+  atlasFromClip(atlas: Atlas, map: number, clipSpace?: ClipSpace): Float64Array;
+  /**
+   * The bias of a map in an engine's own units. rasterizer, the default: WebGPU's states and polygonOffset. normalOffset: a move
+   * along the normal, as three.js and Babylon.js have it. depthBits: of a normalized integer, 1..32; 0, the default: 32-bit floats.
+   */
+  engineBias(plan: Plan, map: number, options?: { way?: 'rasterizer' | 'normalOffset'; kernelRadiusTexels?: number; depthBits?: number }): EngineBias;
+  /** Five planes, four numbers each, round all that can throw a shadow into a rectangle of a map: for cullPlanes. */
+  rectanglePlanes(map: ShadowMap, rectangle: TexelRect, clipSpace?: ClipSpace): Float64Array;
+  /** Indices of the casters within up to 32 planes, four numbers each. */
+  cullPlanes(planes: ArrayLike<number> | ReadonlyArray<ArrayLike<number>>, casters: CasterSet): Uint32Array;
+
+  /** Offset of the texel grid in a frame, 0..2^32 - 1: x and y in (-0.5, 0.5) texels. Any 64 frames in a row hold all 64 offsets. */
+  jitterTexels(frame: number): Float64Array;
+  /** The plan with the texel grid of every map moved by so many texels. Add 0.5 to filterTexels before planning. */
+  jitter<P extends Plan>(plan: P, offset: ArrayLike<number>): P & { maps: Required<ShadowMap>[] };
+  /**
+   * Keeps the direction of a sun that turns until a shadow edge could lie more than mostPixels from its true place; default 0.25.
+   * held: direction of the last frame; default: none. casters: one box round all casters. Without points the sun is not held.
+   */
+  holdSun(input: { camera: Camera; points?: PointList; normals?: PointList; held?: Vector3; sun: Vector3; casters: ArrayLike<number>;
+    mostPixels?: number; leastLightSine?: number }): HeldSun;
+  /**
+   * Frames that the nearest and the farthest depth take to move inwards by one bin; default 4. Frames for which a depth between them
+   * that shows nothing any more still counts; default 30. One per camera.
+   */
+  depthTracker(framesPerBin?: number, holdFrames?: number): DepthTracker;
+
+  /** Counts the pixels that comparisons in the maps will misclassify, without drawing them. Also of foreign maps. */
+  expectedError(plan: Plan | PagePlan, picture: ShadowPicture): WrongPixels;
+  /** Points of the surfaces along the shadow's edges, three numbers each: at most room, 4096 by default, evenly over the picture. */
+  shadowEdgePoints(picture: ShadowPicture, room?: number): Float64Array;
 }
 
-/** Loads the module with pages and lights. As load() of gnomon. */
+/** Loads the larger module. As load() of gnomon. */
 export function load(options?: { wasm?: string | URL | BufferSource | WebAssembly.Module; simd?: boolean }): Promise<FullGnomon>;

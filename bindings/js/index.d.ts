@@ -122,6 +122,15 @@ export interface PlanOptions {
   clipSpace?: ClipSpace;
 }
 
+/** Visible view depths of a frame: pixels in each bin of the logarithm of depth. A `DepthTracker` of gnomon/full returns them. */
+export interface VisibleDepths {
+  /** Eight bins per doubling, from 2^-20 world units on: 352 of them. */
+  count: ArrayLike<number>;
+  /** Nearest and farthest visible depth, world units; min > max: nothing is visible. */
+  min: number;
+  max: number;
+}
+
 /** What a camera sees, and where. */
 export interface ViewInput {
   camera: Camera;
@@ -134,7 +143,7 @@ export interface ViewInput {
   /** Unit normals at the points, towards the eye. Warps do not serve points turned from the light. */
   normals?: PointList;
   /** View depths of pixels that show a surface, such as those of last frame's depth buffer. */
-  depths?: ArrayLike<number>;
+  depths?: ArrayLike<number> | VisibleDepths;
 }
 export interface PlanInput extends ViewInput {
   light: Light;

@@ -1,5 +1,6 @@
 // How do many lights go through the C interface? full.d.ts is the manual.
-import { Handle, pointCount } from './core.js';
+import { Handle, objectOf, pointCount } from './core.js';
+import { readAtlas } from './maps.js';
 import { GnomonError, structs, wholeOf } from './memory.js';
 
 const OUTCOMES = ['mapped', 'belowLeastSize', 'withoutReceiver', 'withoutCaster'];
@@ -43,6 +44,13 @@ function readLight(memory, at) {
   return { outcome: OUTCOMES[outcome], places: place.slice(0, mapCount), ...light };
 }
 
+function writeLightMaps(gnomon, memory, maps) {
+  const { outcome, places, ...light } = objectOf(maps, 'light_maps');
+  const at = gnomon.writeFixed(memory, 'light_maps', { ...light, outcome: Math.max(0, OUTCOMES.indexOf(outcome)), place: places, mapCount: places?.length ?? 0 });
+  memory.integer('light_maps', at, 'size', structs.light_maps.bytes);
+  return at;
+}
+
 export function planLights(gnomon, { lights, options = {}, history, ...view }) {
   const requests = listOf(lights);
   const count = requests.length;
@@ -79,18 +87,31 @@ export function planLights(gnomon, { lights, options = {}, history, ...view }) {
   });
 }
 
-export function lightPlanOptions(gnomon, options, { outcome, places, ...light }) {
+export function lightPlanOptions(gnomon, options, light) {
   const rules = gnomon.names('pruneRules').map(({ name }) => name);
   return gnomon.call(structs.light_options.bytes + 2 * structs.plan_options.bytes + structs.light_maps.bytes, (memory, check) => {
     const how = writeOptions(gnomon, memory, options);
-    const maps = memory.allocate(structs.light_maps.bytes);
-    memory.clear(maps, structs.light_maps.bytes);
-    memory.write('light_maps', maps, { ...light, outcome: Math.max(0, OUTCOMES.indexOf(outcome)), mapCount: places.length, place: places });
-    memory.integer('light_maps', maps, 'size', structs.light_maps.bytes);
+    const maps = writeLightMaps(gnomon, memory, light);
     const to = memory.struct('plan_options');
     check((field) => memory.exports.gnomon_light_plan_options(how, maps, to, field));
     const { prune, ...plan } = memory.read('plan_options', to);
     return { ...plan, prune: rules.filter((_, i) => (prune >>> i) & 1) };
+  });
+}
+
+export function lightAtlas(gnomon, plan, light) {
+  const { lights, poolWidth, poolHeight } = objectOf(plan, 'light_plan');
+  const maps = listOf(lights)[wholeOf(light, 'light')];
+  if (maps === undefined) throw new GnomonError('light');
+  return gnomon.call(structs.light_maps.bytes, (memory, check) => {
+    const at = memory.struct('light_plan');
+    memory.write('light_plan', at, { poolWidth, poolHeight });
+    memory.pointer('light_plan', at, 'lights', writeLightMaps(gnomon, memory, maps));
+    memory.integer('light_plan', at, 'light_size', structs.light_maps.bytes);
+    for (const count of ['light_room', 'light_count']) memory.integer('light_plan', at, count, 1);
+    const atlas = memory.allocate(structs.atlas.bytes);
+    check((field) => memory.exports.gnomon_light_atlas(at, 0n, atlas, field));
+    return readAtlas(memory, atlas);
   });
 }
 

@@ -83,6 +83,17 @@ export function wholeOf(value, name) {
   return value;
 }
 
+/** The same within bounds. */
+export function wholeIn(value, least, most, name) {
+  if (wholeOf(value, name) < least || value > most) throw new GnomonError(name, `gnomon: ${name}: expected ${least}..${most}`);
+  return value;
+}
+
+export function numberOf(value, name) {
+  if (typeof value !== 'number') throw new GnomonError(name, `gnomon: ${name}: expected a number`);
+  return value;
+}
+
 /** The memory of a module. What is allocated in a call is freed at its end; nothing is freed one by one. */
 export class Memory {
   constructor(exports) {
@@ -100,24 +111,34 @@ export class Memory {
     return this.cached;
   }
 
-  /** Runs `work` with memory of its own, at least `bytes`: enough for all that it allocates. */
+  /**
+   * Runs `work` with memory of its own, at least `bytes`: enough for all that it allocates. A call within a call takes another
+   * block where the first one has too little left.
+   */
   scratch(bytes, work) {
-    const begin = this.used;
-    if (begin + bytes > this.room) {
-      if (begin > 0) throw new GnomonError('memory', 'gnomon: a call within a call needs more memory than is left');
-      if (this.block !== 0) this.exports.free(this.block);
-      this.room = Math.max(bytes, 1 << 16);
-      this.block = this.exports.malloc(this.room);
-      if (this.block === 0) {
-        this.room = 0;
-        throw new GnomonError('memory', `gnomon: no memory for ${bytes} bytes`);
-      }
+    const { block, room, used } = this;
+    const another = used > 0 && used + bytes > room;
+    if (used === 0 && bytes > room) {
+      this.exports.free(block);
+      this.block = this.room = 0;
     }
+    if (used + bytes > room) this.takeBlock(bytes);
     try {
       return work();
     } finally {
-      this.used = begin;
+      if (another) {
+        this.exports.free(this.block);
+        Object.assign(this, { block, room });
+      }
+      this.used = used;
     }
+  }
+
+  takeBlock(bytes) {
+    const room = Math.max(bytes, 1 << 16);
+    const block = room < 2 ** 31 ? this.exports.malloc(room) >>> 0 : 0;
+    if (block === 0) throw new GnomonError('memory', `gnomon: no memory for ${bytes} bytes`);
+    Object.assign(this, { block, room, used: 0 });
   }
 
   allocate(bytes) {
@@ -199,6 +220,7 @@ export class Memory {
 
   writeField({ kind, count, list, registry, flag }, at, value, path) {
     if (kind in structs) {
+      if (count > 0 && !(Array.isArray(value) && value.length <= count)) throw new GnomonError(path, `gnomon: ${path}: expected at most ${count} objects`);
       if (count > 0) value.forEach((one, i) => this.write(kind, at + i * structs[kind].bytes, one));
       else this.write(kind, at, value);
     } else if (count > 0) {
@@ -220,7 +242,7 @@ export class Memory {
   }
 
   writeNumber(kind, at, value, path) {
-    if (typeof value !== 'number') throw new GnomonError(path, `gnomon: ${path}: expected a number`);
+    numberOf(value, path);
     if (kind === 'f64') this.view.setFloat64(at, value, true);
     else if (kind === 'f32') this.view.setFloat32(at, value, true);
     // What is no whole number of 32 bits would become another one without a word.
@@ -262,6 +284,7 @@ export class Memory {
   }
   value(struct, at, field) {
     const [offset, kind] = structs[struct].fields[field];
+    if (kind === 'ptr') return this.view.getUint32(at + offset, true);
     return kind === 'i64' ? Number(this.view.getBigInt64(at + offset, true)) : this.view.getInt32(at + offset, true);
   }
 }

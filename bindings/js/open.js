@@ -35,16 +35,18 @@ function versionOf({ memory, gnomon_version }) {
   return String.fromCharCode(...bytes.subarray(0, bytes.indexOf(0)));
 }
 
-/** The exports of a module. `calls`: some that it must have. */
-export async function open(source, calls = ['gnomon_make_plan']) {
+/** The exports of a module. `calls`: some that it must have; `imports`: all that it may import. */
+export async function open(source, calls = ['gnomon_make_plan'], imports = {}) {
   const place = typeof source === 'string' ? new URL(source, globalThis.location?.href ?? import.meta.url) : source;
   const module = await moduleOf(place);
   const names = new Set(WebAssembly.Module.exports(module).map(({ name }) => name));
   for (const call of ['memory', '_initialize', 'gnomon_version', ...calls]) {
     if (!names.has(call)) throw new GnomonError('wasm', `gnomon: wasm: the module has no '${call}'`);
   }
-  if (WebAssembly.Module.imports(module).length > 0) throw new GnomonError('wasm', 'gnomon: wasm: the module has imports');
-  const { exports } = await WebAssembly.instantiate(module, {});
+  for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+    if (!Object.hasOwn(imports, from) || !Object.hasOwn(imports[from], name)) throw new GnomonError('wasm', `gnomon: wasm: the module imports '${from}.${name}'`);
+  }
+  const { exports } = await WebAssembly.instantiate(module, imports);
   exports._initialize();
   const version = versionOf(exports);
   if (version !== VERSION) throw new GnomonError('wasm', `gnomon: wasm: version ${version}, expected ${VERSION}`);

@@ -12,7 +12,7 @@ class Block extends Handle {
 }
 
 /** Resident pages. What the module needs of them lives as long as the object. */
-class PagePlan extends Block {
+export class PagePlan extends Block {
   take(omissions) {
     const { memory } = this.gnomon;
     const at = this.place();
@@ -23,6 +23,10 @@ class PagePlan extends Block {
     memory.pointer('page_plan', at, 'omissions', 0);
     memory.integer('page_plan', at, 'omission_room', 0);
     return this;
+  }
+  dispose() {
+    if (this.gnomon.searches.plan === this) throw new GnomonError('page_plan', 'gnomon: page_plan: not to be disposed by a search for its error');
+    super.dispose();
   }
   /** A list that the plan points to, copied. */
   list(field, kind, count) {

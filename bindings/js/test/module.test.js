@@ -12,11 +12,13 @@ const light = { direction: [0.4, -1, 0.3] };
 const street = { camera, casters: boxes, receivers: boxes };
 const plan = gnomon.plan({ ...street, light });
 
-test('the modules need nothing from outside', () => {
-  for (const name of ['gnomon.wasm', 'gnomon-scalar.wasm', 'gnomon-full.wasm', 'gnomon-full-scalar.wasm']) {
+test('the small modules need nothing from outside, the larger ones a search', async () => {
+  const search = { module: 'gnomon', name: 'occluder_distance', kind: 'function' };
+  for (const [name, imports] of [['gnomon.wasm', []], ['gnomon-scalar.wasm', []], ['gnomon-full.wasm', [search]], ['gnomon-full-scalar.wasm', [search]]]) {
     const module = new WebAssembly.Module(readFileSync(new URL(`../${name}`, import.meta.url)));
-    assert.deepEqual(WebAssembly.Module.imports(module), []);
+    assert.deepEqual(WebAssembly.Module.imports(module), imports);
   }
+  await assert.rejects(load({ wasm: new URL('../gnomon-full.wasm', import.meta.url) }), { field: 'wasm', message: /imports 'gnomon.occluder_distance'/ });
 });
 
 test('every option of the types is one of C, and the other way round', () => {

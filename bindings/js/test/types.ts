@@ -40,5 +40,19 @@ export async function usedInFull(): Promise<number> {
   gnomon.plan({ camera, light: {}, options: gnomon.lightPlanOptions({}, lights.lights[0]) });
   // @ts-expect-error pages are read alone
   pages.pageCount = 3;
+  const shared = gnomon.planViews({ cameras: [camera, camera], light: {}, casters: boxes, options: { cascades: 2 } });
+  const atlas = gnomon.packAtlas(shared);
+  const moved: PlanResult = gnomon.jitter(shared, gnomon.jitterTexels(7));
+  const { direction } = gnomon.holdSun({ camera, points: [0, 0, -5], sun: [0, -1, 0], casters: [0, 0, 0, 1, 1, 1] });
+  const depths = gnomon.depthTracker(4, 30).update(new Float32Array(9));
+  const history = gnomon.history();
+  gnomon.plan({ camera, light: { direction }, depths, history: history.copy() });
+  gnomon.cullPlanes(gnomon.rectanglePlanes(moved.maps[0], atlas.places[0]), boxes);
+  const bias: number = gnomon.engineBias(moved, 0, { way: 'normalOffset' }).normalWorld + gnomon.lightAtlas(lights, 0).efficiency;
+  const picture = { camera, mask: new Float32Array(9), viewDepths: [1, 2, 3], occluderSearch: (x: number, y: number, z: number) => x + y + z };
+  const edges = gnomon.shadowEdgePoints(picture, 100).length + gnomon.expectedError(pages, picture).share + gnomon.expectedError(shared, picture).wrong;
+  if (bias + edges > gnomon.atlasFromClip(atlas, 0, { zeroToOne: true })[0]) return 0;
+  // @ts-expect-error a search returns a number
+  gnomon.expectedError(moved, { ...picture, occluderSearch: () => 'far' });
   return gnomon.pagePool(600).keep(pages).drawn + gnomon.clusterLights({ camera, lights: [{}] }).lights.length;
 }
