@@ -22,7 +22,8 @@ camera: gnomon.Camera = gnomon.perspective(fov_y=1.0)
 plan = gnomon.plan(camera, gnomon.directional((0, -1, 0)), [[0.0] * 6], None)
 p95: float = gnomon.measure(plan, camera, None).p95
 width: int = plan.maps[0].width + camera.width
-sun: gnomon.HeldSun = gnomon.hold_sun(camera, (0, 0, 0), (0, -1, 0), (0, 0, 0, 1, 1, 1), points=None)'
+sun: gnomon.HeldSun = gnomon.hold_sun(camera, (0, 0, 0), (0, -1, 0), (0, 0, 0, 1, 1, 1), points=None)
+share: float = gnomon.expected_error(plan, camera, [[1.0]], [[9.0]], occluders=lambda points: points[:, 1]).share'
 # Panda3D with the matrices of gnomon: at most half of the misclassified pixels.
 xvfb-run -a "$work/bin/python" "$here/../../../samples/panda3d/compare.py" "$work/panda3d" | tee panda3d.log
 awk '/^ratio / { ok = $2 > 0 && $2 <= 0.5 } END { exit !ok }' panda3d.log

@@ -2,6 +2,7 @@
 import ctypes
 import json
 import os
+import signal
 
 import numpy as np
 import pytest
@@ -33,6 +34,25 @@ class Reader:
 
     def count(self):
         return int(self.numbers("u4", 1)[0])
+
+
+def slats(way, points):
+    """What `slats` of tests/c/dump_frames.cpp returns, for all points at once."""
+    up = (6.0 - points[:, 1]) / -way[1]
+    at = points[:, 0] - way[0] * up + 0.4 * (points[:, 2] - way[2] * up)
+    return np.where(at - 8.0 * np.floor(at / 8.0) < 3.0, -np.inf, up)
+
+
+def searched(way):
+    """The slats as occluders, and a list of the batches that they get."""
+    batches = []
+
+    def roof(points):
+        assert points.dtype == np.float64 and points.ndim == 2 and points.flags.writeable
+        batches.append(points.copy())
+        return slats(way, points)
+
+    return roof, batches
 
 
 def options_of(struct):
@@ -102,6 +122,11 @@ def test_all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library
     for kernel, occluders in ((0.0, None), (1.5, None), (1.5, distances)):
         wrong = gnomon.expected_error(plan, camera, mask, depths, kernel_texels=kernel, occluder_distances=occluders)
         assert bytes(file.struct("wrong_pixels")) == np.array(wrong).tobytes()
+    roof, _ = searched(file.numbers("f8", 3))
+    normals = file.numbers("f4", camera.height, camera.width, 3)
+    for kernel, facing in ((1.5, None), (0.0, normals)):
+        wrong = gnomon.expected_error(plan, camera, mask, depths, kernel, distances, occluders=roof, normals=facing)
+        assert bytes(file.struct("wrong_pixels")) == np.array(wrong).tobytes() and wrong.wrong > 0
     edges = file.numbers("f8", file.count(), 3)
     assert gnomon.shadow_edge_points(camera, mask, depths, room=len(edges)).tobytes() == edges.tobytes()
     assert file.at == len(file.data)
@@ -118,7 +143,7 @@ def test_pictures_are_read_where_they_lie_and_foreign_maps_are_expected_to_err_a
     plan = gnomon.plan(camera, sun, boxes, boxes, resolution_max_size=64)
     mask = (np.indices((64, 96)).sum(axis=0) // 9 % 2).astype(np.float32)
     depths = np.full((64, 96), 12, dtype=np.float32)
-    struct, keep = gnomon._pictures._picture(camera, mask=mask, view_depths=depths)
+    struct = gnomon._pictures._picture(camera, mask=mask, view_depths=depths)
     assert (struct.mask, struct.view_depths) == (mask.ctypes.data, depths.ctypes.data)
     own = gnomon.expected_error(plan, camera, mask, depths)
     foreign = gnomon.Plan.foreign([gnomon.Map.foreign(m.clip_from_world, m.width, m.height, m.depth_begin, m.depth_end) for m in plan.maps])
@@ -126,6 +151,104 @@ def test_pictures_are_read_where_they_lie_and_foreign_maps_are_expected_to_err_a
     assert gnomon.expected_error(plan, camera, np.ones_like(mask), depths).wrong < 1e-9
     mask[:] = -1
     assert gnomon.expected_error(plan, camera, mask, depths) == (0, 0, 0)
+
+
+def ground_under_slats(width, height):
+    """A camera over ground under slats, the sun, boxes, the ground's points, mask and view depths."""
+    camera = gnomon.perspective(position=(0, 3, 10), forward=(0, -0.4, -1), fov_y=0.7, aspect=1.5, near=0.2, far=250, width=width, height=height)
+    way = np.array([0.4, -1, 0.3]) / np.linalg.norm([0.4, -1, 0.3])
+    forward = np.array([0, -0.4, -1]) / np.hypot(0.4, 1)
+    x, y = np.meshgrid((2 * np.arange(width) + 1) / width - 1, 1 - (2 * np.arange(height) + 1) / height)
+    rays = forward + x[..., None] * (camera.right, 0, 0) + y[..., None] * camera.top * np.cross((1, 0, 0), forward)
+    depths = -3 / rays[..., 1]
+    points = ((0, 3, 10) + rays * depths[..., None]).reshape(-1, 3)
+    boxes = np.array([[-40, -1, -200, 40, 0, 20], [-80, 6, -200, 40, 7, 20.0]])
+    return camera, way, boxes, points, (slats(way, points) < 0).reshape(height, width), depths
+
+
+@pytest.mark.parametrize("kernel, most", ((0.0, 1), (1.5, 4), (8.0, 4)))
+def test_occluders_get_few_batches_and_give_the_bits_of_a_search_point_by_point(kernel, most):
+    camera, way, boxes, points, mask, depths = ground_under_slats(96, 64)
+    sun = gnomon.directional(way)
+    pages = gnomon.pages(camera, sun, boxes, boxes, points=points, capacity=64, target_m=8)
+    assert len(pages.pages) > 1
+    for plan, name in ((gnomon.plan(camera, sun, boxes, boxes, resolution_max_size=128), "gnomon_expected_error"), (pages, "gnomon_expected_page_error")):
+        roof, batches = searched(way)
+        found = gnomon.expected_error(plan, camera, mask, depths, kernel, occluders=roof)
+        named = []
+
+        def one_by_one(_scene, place):
+            named.append(ctypes.string_at(place, 24))
+            return slats(way, np.frombuffer(named[-1]).reshape(1, 3))[0]
+
+        struct = gnomon._pictures._picture(camera, mask=mask, view_depths=depths)
+        search = gnomon._pictures._Search(one_by_one)
+        struct.kernel_texels, struct.occluder_search = kernel, ctypes.cast(search, ctypes.c_void_p).value
+        expected = c.wrong_pixels()
+        gnomon._call.call(name, plan._struct, struct, expected)
+        assert np.array(found).tobytes() == bytes(expected) and 0 < found.share < 0.2
+        assert 1 <= len(batches) <= most
+        searched_points = [point.tobytes() for batch in batches for point in batch]
+        assert len(set(searched_points)) == len(searched_points) and set(named) <= set(searched_points)
+
+
+def test_foreign_maps_with_their_light_are_searched_as_their_plan():
+    camera, way, boxes, _, mask, depths = ground_under_slats(96, 64)
+    plan = gnomon.plan(camera, gnomon.directional(way), boxes, boxes, resolution_max_size=128)
+    roof, _ = searched(way)
+    # On level ground the default light, from above, would do as well.
+    tilted = np.tile(np.float32([0, 0.8, 0.6]), (64, 96, 1))
+    errors = [gnomon.expected_error(plan, camera, mask, depths, occluders=roof, normals=tilted)]
+    for light in ((*-way, 0), None):
+        maps = [gnomon.Map.foreign(m.clip_from_world, m.width, m.height, m.depth_begin, m.depth_end, light) for m in plan.maps]
+        errors.append(gnomon.expected_error(gnomon.Plan.foreign(maps), camera, mask, depths, occluders=roof, normals=tilted))
+    assert 0 < errors[0].wrong == errors[1].wrong != errors[2].wrong
+
+
+def test_a_plan_without_maps_searches_nothing_and_without_occluders_pages_read_the_picture():
+    camera, way, boxes, points, mask, depths = ground_under_slats(96, 64)
+    roof, batches = searched(way)
+    dark = mask.size - mask.sum()
+    assert gnomon.expected_error(gnomon.Plan.foreign([]), camera, mask, depths, occluders=roof) == (dark, mask.size, dark / mask.size)
+    assert batches == []
+    pages = gnomon.pages(camera, gnomon.directional(way), boxes, boxes, points=points, capacity=64)
+    assert 0 < gnomon.expected_error(pages, camera, mask, depths).share < 0.2
+
+
+def test_what_occluders_raise_and_what_comes_up_in_the_search_reaches_the_caller(monkeypatch):
+    camera, way, boxes, _, mask, depths = ground_under_slats(240, 160)
+    plan = gnomon.plan(camera, gnomon.directional(way), boxes, boxes)
+    own = KeyError("own")
+
+    def broken(points):
+        raise own
+
+    with pytest.raises(KeyError) as caught:
+        gnomon.expected_error(plan, camera, mask, depths, occluders=broken)
+    assert caught.value is own
+
+    # Signals while C searches, 12 of them: where the search begins in Python, a handler's exception would be lost.
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    try:
+        for i in range(12):
+            with pytest.raises(KeyboardInterrupt):
+                signal.setitimer(signal.ITIMER_REAL, 5e-3 + 1e-4 * i)
+                gnomon.expected_error(plan, camera, mask, depths, occluders=lambda points: slats(way, points))
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+    class Full:
+        @staticmethod
+        def from_address(place):
+            raise MemoryError
+
+    monkeypatch.setattr(gnomon._pictures, "_Point", Full)
+    with pytest.raises(MemoryError):
+        gnomon.expected_error(plan, camera, mask, depths, occluders=lambda points: slats(way, points))
 
 
 def test_visible_depths_shorten_the_maps_and_plans_become_text():
@@ -182,6 +305,9 @@ def test_bad_input_is_refused_by_name():
         "light_clusters.light_room": lambda: gnomon.clusters(camera, [sun] * 3, room=2),
         "shadow_picture.mask": lambda: gnomon.expected_error(plan, camera, mask.T, mask),
         "shadow_picture.view_depths": lambda: gnomon.shadow_edge_points(camera, mask, mask[1:]),
+        "shadow_picture.normals": lambda: gnomon.expected_error(plan, camera, mask, mask, normals=mask),
+        "map.light_world": lambda: gnomon.Map.foreign(np.eye(4), 64, 64, light_world=(0, 1, 0)),
+        "plan": lambda: gnomon.expected_error(camera, camera, mask, mask),
         "room": lambda: gnomon.shadow_edge_points(camera, mask, mask, room=-1),
         "normals": lambda: gnomon.measure_points(plan.maps[0], camera, [[0, 0, 0]], [[0, 1, 0]] * 2),
         "points": lambda: gnomon.measure_points(plan.maps[0], camera, [[0, np.nan, 0]]),
@@ -189,5 +315,8 @@ def test_bad_input_is_refused_by_name():
         "plan_options.fit": lambda: gnomon.plan(camera, sun, boxes, boxes, fit="loose"),
     }.items():
         assert field_of(run) == field
+    depths, up = np.full_like(mask, 12), np.tile(np.float32([0, 1, 0]), (64, 96, 1))
+    for occluders in (lambda p: p, lambda p: p[1:, 0], lambda p: 1.0, lambda p: ["far"] * len(p), lambda p: [[1.0], [1.0, 2.0]], "rays"):
+        assert field_of(lambda: gnomon.expected_error(plan, camera, mask, depths, occluders=occluders, normals=up)) == "shadow_picture.occluder_search"
     broken = gnomon.Map.foreign(np.full((4, 4), np.nan), 64, 64)
     assert field_of(lambda: gnomon.expected_error(gnomon.Plan.foreign([broken]), camera, mask, mask)) == "map.clip_from_world"
