@@ -10,7 +10,7 @@ python3 -B "$here/../layout.py" --check
 cd "$here"
 export CARGO_TARGET_DIR="$work/compiled" CXX="$here/../../cmake/ccache g++"
 cargo test --locked --quiet --all-features -- --include-ignored
-cargo build --locked --quiet -p gnomon --no-default-features
+cargo test --locked --quiet -p gnomon --no-default-features --tests -- --include-ignored
 cargo doc --locked --quiet --no-deps --all-features
 cargo package --locked --quiet -p gnomon-sys --allow-dirty --no-verify
 export CARGO_TARGET_DIR="$work/installed" GNOMON_LIB_DIR="$library" LD_LIBRARY_PATH="$library"

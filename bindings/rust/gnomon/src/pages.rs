@@ -9,7 +9,9 @@ use core::slice::from_raw_parts;
 use crate::error::{check, Error, Result};
 use crate::memory::{count, MemoryBlock};
 use crate::sys::*;
-use crate::{Aabb, Light, Map, MeasureOptions, PlanOptions, Point, Scene, Stats, Status, View};
+use crate::{
+    Aabb, Light, Map, MeasureOptions, PlanOptions, Point, Scene, ShadowPicture, Stats, Status, View, WrongPixels,
+};
 
 /// Options of [`plan_pages`]. Every default suits most scenes.
 #[derive(Clone, Copy, Debug)]
@@ -202,6 +204,13 @@ impl PagePlan<'_> {
             )
         };
         check(status, field).map(|_| (stats, share))
+    }
+    /// [`expected_error`](crate::expected_error) in the pages that serve the points of the picture. A point without a page is drawn
+    /// as lit.
+    pub fn expected_error(&self, picture: ShadowPicture<'_>, kernel_texels: f64) -> Result<WrongPixels> {
+        picture.expect(kernel_texels, |picture, pixels, field| unsafe {
+            gnomon_expected_page_error(&self.plan, picture, pixels, field)
+        })
     }
     /// Finds the pages that a pool still holds, and a slot for each of the others. `moved`: boxes of casters that changed since
     /// the last call, where they were and where they are. `slots`: the pool, at least one for each page. `table`:

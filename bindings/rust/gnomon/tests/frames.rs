@@ -24,6 +24,19 @@ fn field<T>(result: gnomon::Result<T>) -> &'static str {
     }
 }
 
+/// `slats` of tests/c/dump_frames.cpp: a roof of slats, by the way of the light, unit.
+fn slats(way: Point) -> impl Fn(Point) -> f64 {
+    move |point| {
+        let up = (6.0 - point[1]) / -way[1];
+        let at = point[0] - way[0] * up + 0.4 * (point[2] - way[2] * up);
+        if at - 8.0 * (at / 8.0).floor() < 3.0 {
+            f64::NEG_INFINITY
+        } else {
+            up
+        }
+    }
+}
+
 #[test]
 #[ignore = "takes the file of c_dump_frames: ./dev check rust"]
 fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
@@ -120,7 +133,7 @@ fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
     let mask: Vec<f32> = list(&mut file);
     let view_depths: Vec<f32> = file.some(mask.len());
     let distances: Vec<f32> = file.some(mask.len());
-    let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &view_depths, occluder_distances: &[] };
+    let picture = ShadowPicture::new(&camera, &mask, &view_depths);
     let found = gnomon::expected_error(&plan, picture, 0.0).unwrap();
     assert_eq!(bytes(&found), bytes(&file.take::<gnomon_wrong_pixels>()));
     let averaged = gnomon::expected_error(&plan, picture, 1.5).unwrap();
@@ -130,6 +143,15 @@ fn all_that_changes_from_frame_to_frame_has_the_bits_of_the_native_library() {
     assert_eq!(bytes(&biased), bytes(&file.take::<gnomon_wrong_pixels>()));
     assert!(biased.wrong > averaged.wrong);
     assert!(found.wrong > averaged.wrong && averaged.wrong > 0.0);
+    let roof = slats(file.take());
+    let normals: Vec<[f32; 3]> = file.some(mask.len());
+    let picture = ShadowPicture { occluder_distances: &distances, occluders: Some(&roof), ..picture };
+    let searched = gnomon::expected_error(&plan, picture, 1.5).unwrap();
+    assert_eq!(bytes(&searched), bytes(&file.take::<gnomon_wrong_pixels>()));
+    let facing = gnomon::expected_error(&plan, ShadowPicture { normals: &normals, ..picture }, 0.0).unwrap();
+    assert_eq!(bytes(&facing), bytes(&file.take::<gnomon_wrong_pixels>()));
+    assert!(searched.wrong > 0.0 && facing.wrong > 0.0);
+    assert!(format!("{picture:?}").contains("occluders: true"));
     let edges: Vec<Point> = list(&mut file);
     let mut points = vec![[0.0; 3]; edges.len()];
     assert_eq!(picture.edge_points(&mut points).unwrap(), edges.len());
@@ -174,7 +196,7 @@ fn bad_input_is_refused_by_name() {
     assert_eq!(field(plan.engine_bias(0, BiasWay::NormalOffset, 0.0, -1)), "depth_bits");
 
     let (mask, depths) = ([1.0f32; 96 * 64], [5.0f32; 96 * 64]);
-    let picture = ShadowPicture { camera: &camera, mask: &mask, view_depths: &depths, occluder_distances: &[] };
+    let picture = ShadowPicture::new(&camera, &mask, &depths);
     let expect = |picture| field(gnomon::expected_error(&plan, picture, 0.0));
     assert_eq!(expect(ShadowPicture { mask: &mask[1..], ..picture }), "shadow_picture.view_depths");
     assert_eq!(
@@ -185,11 +207,64 @@ fn bad_input_is_refused_by_name() {
         expect(ShadowPicture { occluder_distances: &depths[1..], ..picture }),
         "shadow_picture.occluder_distances"
     );
+    let normals = [[0.0, 1.0, 0.0]; 96 * 64];
+    assert_eq!(expect(ShadowPicture { normals: &normals[1..], ..picture }), "shadow_picture.normals");
     assert_eq!(field(ShadowPicture { view_depths: &[], ..picture }.edge_points(&mut [])), "shadow_picture.view_depths");
     assert_eq!(picture.edge_points(&mut []).unwrap(), 0);
     let mut broken = camera;
     broken.near_depth = -1.0;
     assert_eq!(expect(ShadowPicture { camera: &broken, ..picture }), "camera.near_depth");
+}
+
+/// Expects the error of a ground that the camera sees from above, all lit, with these occluders.
+fn search(occluders: &dyn Fn(Point) -> f64) -> f64 {
+    let camera = Camera::at([0.0, 10.0, -20.0], [0.0, -1.0, 0.0]).orthographic(8.0, 1.0, 0.1, 20.0, 16, 16).unwrap();
+    let (mask, depths) = ([1.0; 256], [10.0; 256]);
+    let picture = ShadowPicture { occluders: Some(occluders), ..ShadowPicture::new(&camera, &mask, &depths) };
+    gnomon::expected_error(&plan_of(&BOXES), picture, 0.0).unwrap().share
+}
+
+#[cfg(feature = "std")]
+#[test]
+fn a_panic_of_the_occluders_comes_out_of_the_call_and_they_are_not_called_again() {
+    let called = std::cell::Cell::new(0);
+    let count = |_| {
+        called.set(called.get() + 1);
+        f64::INFINITY
+    };
+    assert_eq!(search(&count), 1.0);
+    assert!(called.get() > 10);
+    called.set(0);
+    let panicking = |point| {
+        if count(point) > 0.0 && called.get() == 5 {
+            std::panic::panic_any("of the occluders");
+        }
+        f64::INFINITY
+    };
+    let caught = std::panic::catch_unwind(std::panic::AssertUnwindSafe(|| search(&panicking))).unwrap_err();
+    assert_eq!(caught.downcast_ref::<&str>(), Some(&"of the occluders"));
+    assert_eq!(called.get(), 5);
+}
+
+#[cfg(not(feature = "std"))]
+#[test]
+fn without_std_a_panic_of_the_occluders_aborts() {
+    use std::os::unix::process::ExitStatusExt;
+    const CHILD: &str = "GNOMON_PANICS";
+    assert_eq!(search(&|_| f64::NEG_INFINITY), 0.0);
+    if std::env::var_os(CHILD).is_some() {
+        // Where the panic unwinds, the test passes in the child.
+        let _ = std::panic::catch_unwind(|| search(&|_| panic!("of the occluders")));
+        return;
+    }
+    let child = std::process::Command::new(std::env::current_exe().unwrap())
+        .args(["--nocapture", "--exact", "without_std_a_panic_of_the_occluders_aborts"])
+        .env(CHILD, "1")
+        .output()
+        .unwrap();
+    const SIGABRT: i32 = 6;
+    assert_eq!(child.status.signal(), Some(SIGABRT), "{child:?}");
+    assert!(String::from_utf8_lossy(&child.stderr).contains("occluders panicked"), "{child:?}");
 }
 
 #[test]

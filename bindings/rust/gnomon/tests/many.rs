@@ -6,7 +6,7 @@ use gnomon::sys::*;
 use gnomon::{
     light_memory, page_memory, page_table_size, plan_lights, plan_pages, Aabb, Camera, KeptPage, Light, LightHistory,
     LightMaps, LightOptions, LightRequest, List, MemoryBlock, PageHistory, PageOptions, PageSlot, PlanOptions, Point,
-    Scene, View,
+    Scene, ShadowPicture, View,
 };
 
 const BOXES: [Aabb; 3] =
@@ -84,6 +84,33 @@ fn pages_are_those_of_the_calls_of_c() {
     assert_eq!(plan.table(), unsafe { std::slice::from_raw_parts(raw.table, raw.table_count as usize) });
     assert_eq!(plan.level_count(), raw.level_count as usize);
     assert_eq!((plan.page_texels(), plan.target_m()), ((raw.page_texels, raw.border_texels), raw.target_m));
+
+    // A roof of beams, one unit wide, over ground that is seen from above.
+    let beams = |point: Point| if point[0].rem_euclid(2.0) < 1.0 { 4.0 - point[1] } else { f64::NEG_INFINITY };
+    unsafe extern "C" fn beams_in_c(_: *const std::ffi::c_void, point: *const f64) -> f64 {
+        if (*point).rem_euclid(2.0) < 1.0 {
+            4.0 - *point.add(1)
+        } else {
+            f64::NEG_INFINITY
+        }
+    }
+    let above = Camera::at([0.0, 10.0, -20.0], [0.0, -1.0, 0.0]).orthographic(8.0, 1.0, 0.1, 20.0, 64, 64).unwrap();
+    let (mask, depths) = ([1.0; 64 * 64], [10.0; 64 * 64]);
+    let picture = ShadowPicture { occluders: Some(&beams), ..ShadowPicture::new(&above, &mask, &depths) };
+    let expected = plan.expected_error(picture, 1.5).unwrap();
+    let mut in_c = MaybeUninit::<gnomon_shadow_picture>::uninit();
+    let mut raw_expected = gnomon_wrong_pixels { wrong: 0.0, counted: 0.0, share: 0.0 };
+    unsafe {
+        gnomon_shadow_picture_default(in_c.as_mut_ptr(), std::mem::size_of::<gnomon_shadow_picture>() as u32);
+        let mut in_c = in_c.assume_init();
+        (in_c.camera, in_c.mask, in_c.view_depths) = (&*above, mask.as_ptr(), depths.as_ptr());
+        (in_c.pixel_count, in_c.kernel_texels) = (64 * 64, 1.5);
+        in_c.occluder_search = Some(beams_in_c);
+        assert_eq!(gnomon_expected_page_error(&raw, &in_c, &mut raw_expected, null_mut()), GNOMON_OK);
+    }
+    assert_eq!(expected.wrong.to_bits(), raw_expected.wrong.to_bits());
+    assert!(expected.counted == 4096.0 && expected.share > 0.2 && expected.share < 0.8);
+    assert_eq!(field(plan.expected_error(ShadowPicture { mask: &[], ..picture }, 0.0)), "shadow_picture.view_depths");
 
     let mut indices = vec![-1; points.len()];
     plan.select(&points, &mut indices).unwrap();
