@@ -199,7 +199,26 @@ TEST(PictureInC, a_search_gives_the_pixels_of_cpp) {
   EXPECT_NE(alone.wrong, searched.wrong);
 }
 
-TEST(PictureInC, searches_that_answer_nonsense_give_a_share) {
+TEST(PictureInC, a_search_takes_the_light_of_foreign_maps_from_their_matrices) {
+  Street street;
+  const Slats slats;
+  slats.shade(street);
+  PlanOptions options;
+  options.resolution.max_size = 256;
+  street.plan(options);
+  gnomon_wrong_pixels own, foreign;
+  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &own, nullptr), GNOMON_OK);
+  for (gnomon_map& map : street.found.maps) {
+    gnomon_map other;
+    gnomon_map_default(&other, sizeof other);
+    std::memcpy(map.light_world, other.light_world, sizeof other.light_world);
+  }
+  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &foreign, nullptr), GNOMON_OK);
+  EXPECT_GT(own.wrong, 100.0);
+  EXPECT_NEAR(foreign.wrong, own.wrong, 0.01 * own.wrong);
+}
+
+TEST(PictureInC, a_search_that_finds_nonsense_gives_a_share) {
   Street street;
   Slats().shade(street);
   street.plan({});

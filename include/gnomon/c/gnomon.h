@@ -717,11 +717,11 @@ GNOMON_API int32_t gnomon_measure_points(const gnomon_map* map, const gnomon_cam
                                          const double* points, const double* normals, int64_t count,
                                          gnomon_point_error* errors, const char** invalid_field);
 
-/// Finds what lies between any point of space and the light, as a map finds it: by rays. Returns the distance
-/// along the light from `point` (x, y, z, world space) to the occluder nearest the light, world units:
-/// negative where that lies beyond the point, -infinity where there is none. Not a number counts as that.
-/// `scene`: gnomon_shadow_picture::occluder_scene. It may make other calls of gnomon. It must return: no
-/// exception and no jump may leave it.
+/// Finds what lies between any point of space and the light, as a map finds it: by rays. `point`: x, y, z,
+/// world space. Returns the distance along the light from there to the occluder nearest the light, world
+/// units. It is negative where that lies beyond the point, -infinity where there is none, and not a number
+/// counts as that. `scene`: gnomon_shadow_picture::occluder_scene. It may make other calls of gnomon. It must
+/// return: no exception and no jump may leave it.
 typedef double (*gnomon_occluder_search)(const void* scene, const double point[3]);
 
 /// A shadow as a camera sees it: of other maps, of the last frame, or of rays.
@@ -763,8 +763,8 @@ typedef struct gnomon_wrong_pixels {
   double share;    ///< wrong over counted, in 0..1; 0 where none counts
 } gnomon_wrong_pixels;
 /// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. A plan
-/// without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure. Time grows with the
-/// pixels.
+/// without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure, with a light of
+/// theirs where light_world is another. Time grows with the pixels.
 ///
 /// With occluder_search each pixel is compared with what lies on the light's ray through the middle of its
 /// texel, on the plane of its surface. Neighbours that read one texel search it once.

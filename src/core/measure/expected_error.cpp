@@ -9,6 +9,7 @@
 
 #include "geometry/matrix.hpp"
 #include "measure/lookup_bias.hpp"
+#include "measure/map_light.hpp"
 #include "measure/metric_kernel.hpp"
 #include "measure/texel_box.hpp"
 #include "measure/traced_lookup.hpp"
@@ -180,9 +181,9 @@ double lit_alike(const Pixels& pixels, const SurfacePlane& plane, int x, int y,
 /// The texels round a point of a surface, where they meet its plane.
 class TexelsOnPlane {
  public:
-  TexelsOnPlane(const Pixels& pixels, const ShadowMap& map, const SurfacePlane& plane,
-                const glm::dvec3& point, int x, int y) noexcept
-      : pixels_(pixels), light_(map.light_world), point_(point) {
+  TexelsOnPlane(const Pixels& pixels, const ShadowMap& map, const glm::dvec4& light_world,
+                const SurfacePlane& plane, const glm::dvec3& point, int x, int y) noexcept
+      : pixels_(pixels), light_(light_world), point_(point) {
     const Camera& camera = pixels.camera();
     const TexelGrid grid = map.texels();
     // Asked first: the Jacobian divides by it.
@@ -232,7 +233,7 @@ class TexelsOnPlane {
 
  private:
   const Pixels& pixels_;
-  glm::dvec4 light_;  ///< ShadowMap::light_world
+  glm::dvec4 light_;  ///< as ShadowMap::light_world
   glm::dvec3 point_, right_{0.0}, down_{0.0}, normal_{0.0};
   TexelJacobian texel_{};
   glm::dvec2 x_{0.0}, y_{0.0}, place_{0.0};  ///< texels for each step to the right and down
@@ -265,11 +266,17 @@ Standing standing_in(int column, int row, int side) noexcept {
   return {static_cast<int>(h % cells), static_cast<int>((h >> 16) % cells)};
 }
 
-/// `serving`: the map, or the level of pages, whose texels a point at a view depth is compared with; nullptr:
-/// none, and it is drawn as lit.
-template <class Serving>
+/// The map, or the level of pages, whose texels a point is compared with. nullptr: none, and it is drawn as
+/// lit.
+struct Serving {
+  const ShadowMap* map;
+  const glm::dvec4* light_world;
+};
+
+/// `serving`: of a point at a view depth.
+template <class Serve>
 ExpectedError expected_over(const ShadowPicture& shadow, const BiasOptions& bias, double kernel_texels,
-                            int every, const Serving& serving) noexcept {
+                            int every, const Serve& serving) noexcept {
   const Pixels pixels(shadow);
   const double half_side = kernel_texels > 0.0 ? min_of(kernel_texels, kMaxKernelTexels) : 0.0;
   const int side = std::clamp(every, 1, kMostEvery);
@@ -283,17 +290,17 @@ ExpectedError expected_over(const ShadowPicture& shadow, const BiasOptions& bias
       counted += 1.0;
       const double depth = pixels.depth(x, y), lit = pixels.lit(x, y);
       const glm::dvec3 point = pixels.position(x, y, depth);
-      const ShadowMap* const map = serving(point, depth);
+      const auto [map, light_world] = serving(point, depth);
       if (map == nullptr) {
         known += 1.0;
         wrong += 1.0 - lit;
         continue;
       }
       const SurfacePlane plane = plane_at(pixels, x, y);
-      const TexelsOnPlane texels(pixels, *map, plane, point, x, y);
+      const TexelsOnPlane texels(pixels, *map, *light_world, plane, point, x, y);
       if (shadow.occluders.distance != nullptr) {
         const glm::dvec3 normal = safe_normalize(pixels.normal(x, y), texels.normal());
-        const TracedLookup lookup(found, bias, *map, point, normal);
+        const TracedLookup lookup(found, bias, *map, *light_world, point, normal);
         if (!lookup.known()) continue;
         known += 1.0;
         const double drawn = half_side > 0.0 ? lookup.mean(half_side) : lookup.hard();
@@ -328,21 +335,24 @@ ExpectedError expected_over(const ShadowPicture& shadow, const BiasOptions& bias
 
 ExpectedError expected_error(const ShadowPlan& plan, const ShadowPicture& shadow, double kernel_texels,
                              int every) noexcept {
-  return expected_over(shadow, plan.bias, kernel_texels, every,
-                       [&](const glm::dvec3& point, double depth) -> const ShadowMap* {
-                         const int map = map_serving(plan, point, depth);
-                         return map < 0 ? nullptr : &plan.maps()[static_cast<std::size_t>(map)];
-                       });
+  std::array<glm::dvec4, kMaxMaps> lights_world;
+  for (std::size_t i = 0; i < plan.maps().size(); ++i) lights_world[i] = light_of(plan.maps()[i]);
+  return expected_over(shadow, plan.bias, kernel_texels, every, [&](const glm::dvec3& point, double depth) {
+    const int map = map_serving(plan, point, depth);
+    const auto i = static_cast<std::size_t>(map);
+    return map < 0 ? Serving{} : Serving{&plan.maps()[i], &lights_world[i]};
+  });
 }
 
 ExpectedError expected_error(const PagePlan& plan, const ShadowPicture& shadow, double kernel_texels,
                              int every) noexcept {
   // A page has the texels of its level.
-  return expected_over(
-      shadow, plan.bias, kernel_texels, every, [&](const glm::dvec3& point, double) -> const ShadowMap* {
-        const int page = page_serving(plan, point);
-        return page < 0 ? nullptr : &plan.levels[plan.pages[static_cast<std::size_t>(page)].level];
-      });
+  return expected_over(shadow, plan.bias, kernel_texels, every, [&](const glm::dvec3& point, double) {
+    const int page = page_serving(plan, point);
+    if (page < 0) return Serving{};
+    const ShadowMap& level = plan.levels[plan.pages[static_cast<std::size_t>(page)].level];
+    return Serving{&level, &level.light_world};
+  });
 }
 
 std::size_t shadow_edge_points(const ShadowPicture& shadow, std::span<glm::dvec3> out) noexcept {

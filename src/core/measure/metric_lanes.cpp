@@ -9,6 +9,7 @@
 
 #include "lanes/lanes.hpp"
 #include "lanes/wide.hpp"
+#include "measure/map_light.hpp"
 #include "measure/metric_kernel.hpp"
 
 namespace gnomon {
@@ -151,23 +152,6 @@ GNOMON_WIDE void find_surface(const MetricFrame& f, MetricBlock& b, std::size_t 
   }
 }
 
-/// Whether the matrix sends the light to no place of its image: x, y and w of a parallel light's direction,
-/// or of a local light's position, are zero but for rounding.
-bool is_light_of(const glm::dmat4& clip_from_world, const glm::dvec4& light) noexcept {
-  // Far above the rounding of a matrix, far below an angle that changes a cosine.
-  constexpr double kRounding = 1e-7;
-  const double length = glm::length(glm::dvec3(light));
-  double across = 0.0;  // of what the matrix makes of a step, which rounding of w is to be compared with
-  for (const int row : {0, 1, 3}) {
-    const glm::dvec4 r{clip_from_world[0][row], clip_from_world[1][row], clip_from_world[2][row],
-                       clip_from_world[3][row]};
-    across = max_of(across, glm::length(glm::dvec3(r)));
-    if (!(std::abs(glm::dot(r, light)) <= kRounding * (across * length + std::abs(r.w * light.w))))
-      return false;
-  }
-  return length > 0.0 || light.w != 0.0;
-}
-
 }  // namespace
 
 MetricFrame::MetricFrame(const ShadowMap& map, const Camera& camera, const CameraAxes& axes) noexcept
@@ -179,11 +163,7 @@ MetricFrame::MetricFrame(const ShadowMap& map, const Camera& camera, const Camer
       pixel_y(axes.up * ((camera.top - camera.bottom) / camera.height)),
       light_world(map.light_world),
       light_from_matrix(!is_light_of(map.clip_from_world, map.light_world)),
-      light_sense(glm::determinant(map.clip_from_world) *
-                              glm::determinant(map.texels().place(glm::dvec2(0.0)).texel_from_ndc) <
-                          0.0
-                      ? -1.0
-                      : 1.0),
+      light_sense(gnomon::light_sense(map)),
       orthographic(camera.orthographic) {}
 
 void judge_perspective(const MetricFrame& f, MetricBlock& b, std::size_t count) noexcept {

@@ -57,16 +57,16 @@ class FoundOccluders {
 /// over the texel's middle, less the bias.
 class TracedLookup {
  public:
-  /// `normal`: unit, towards the side that is seen.
-  TracedLookup(FoundOccluders& found, const BiasOptions& bias, const ShadowMap& map, const glm::dvec3& point,
-               const glm::dvec3& normal) noexcept
-      : found_(found), map_(map) {
+  /// `light_world`: of the map. `normal`: unit, towards the side that is seen.
+  TracedLookup(FoundOccluders& found, const BiasOptions& bias, const ShadowMap& map,
+               const glm::dvec4& light_world, const glm::dvec3& point, const glm::dvec3& normal) noexcept
+      : found_(found), map_(map), light_world_(light_world) {
     // Asked first: the Jacobian divides by it.
     const glm::dmat4& m = map.clip_from_world;
     if (!(w_at(m, point) > 0.0)) return;
     const TexelGrid grid = map.texels();
     const TexelJacobian on_surface = texel_jacobian(m, grid, point);
-    light_ = -safe_normalize(glm::dvec3(map.light_world) - map.light_world.w * point, normal);
+    light_ = -safe_normalize(glm::dvec3(light_world) - light_world.w * point, normal);
     const double cosine = -glm::dot(normal, light_), sine = std::sqrt(max_of(1.0 - cosine * cosine, 0.0));
     const double longer = texel_sides(on_surface, light_).longer;
     if (!(longer > 0.0) || !(cosine > 0.0)) return;
@@ -110,9 +110,9 @@ class TracedLookup {
     const glm::dvec3 across = straight / growth;
     // Back onto the plane, along the light.
     const glm::dvec3 middle = position_ + across + light_ * glm::dot(slope_, across);
-    const glm::dvec3 from(map_.light_world);
+    const glm::dvec3 from(light_world_);
     const double along =
-        map_.light_world.w > 0.0 ? glm::length(middle - from / map_.light_world.w) : glm::dot(middle, light_);
+        light_world_.w > 0.0 ? glm::length(middle - from / light_world_.w) : glm::dot(middle, light_);
     return found_.distance(map_, texel, middle, along) > bias_world_ ? 0.0 : 1.0;
   }
 
@@ -121,6 +121,7 @@ class TracedLookup {
 
   FoundOccluders& found_;
   const ShadowMap& map_;
+  const glm::dvec4& light_world_;
   glm::dvec3 position_{0.0}, light_{0.0};  ///< of the look-up; the way the light travels
   glm::dvec3 slope_{0.0};                  ///< how far the plane falls along the light, for each way across
   TexelSides side_;

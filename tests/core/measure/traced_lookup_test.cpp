@@ -54,7 +54,7 @@ double hard(const World& world, double x, double z, const BiasOptions& bias = kT
   const ShadowMap map = overhead();
   const OccluderSearch search = world.search();
   FoundOccluders found(search);
-  const TracedLookup lookup(found, bias, map, world.on_plane(x, z), world.normal);
+  const TracedLookup lookup(found, bias, map, map.light_world, world.on_plane(x, z), world.normal);
   EXPECT_TRUE(lookup.known());
   return lookup.hard();
 }
@@ -62,7 +62,7 @@ double mean(const World& world, double x, double z, double half_side) {
   const ShadowMap map = overhead();
   const OccluderSearch search = world.search();
   FoundOccluders found(search);
-  return TracedLookup(found, kTiny, map, world.on_plane(x, z), world.normal).mean(half_side);
+  return TracedLookup(found, kTiny, map, map.light_world, world.on_plane(x, z), world.normal).mean(half_side);
 }
 
 TEST(TracedLookup, compares_the_middle_of_its_texel) {
@@ -138,10 +138,12 @@ TEST(TracedLookup, searches_once_for_each_texel_of_each_map) {
   FoundOccluders found(search);
   for (int round = 0; round < 3; ++round) {
     for (const double x : {0.1, 0.5, 0.9, 1.1})
-      EXPECT_EQ(TracedLookup(found, kTiny, first, world.on_plane(x, 0.5), world.normal).hard(), 1.0);
+      EXPECT_EQ(
+          TracedLookup(found, kTiny, first, first.light_world, world.on_plane(x, 0.5), world.normal).hard(),
+          1.0);
   }
   EXPECT_EQ(world.asked.size(), 2u);
-  (void)TracedLookup(found, kTiny, second, world.on_plane(0.1, 0.5), world.normal).hard();
+  (void)TracedLookup(found, kTiny, second, second.light_world, world.on_plane(0.1, 0.5), world.normal).hard();
   EXPECT_EQ(world.asked.size(), 3u);
 }
 
@@ -152,7 +154,9 @@ TEST(TracedLookup, keeps_what_it_found_for_planes_of_other_heights) {
   const ShadowMap map = overhead();
   const OccluderSearch search = world.search();
   FoundOccluders found(search);
-  const auto at = [&](double y) { return TracedLookup(found, kTiny, map, {0.1, y, 0.1}, {0, 1, 0}).hard(); };
+  const auto at = [&](double y) {
+    return TracedLookup(found, kTiny, map, map.light_world, {0.1, y, 0.1}, {0, 1, 0}).hard();
+  };
   EXPECT_EQ(at(0.0), 0.0);
   EXPECT_EQ(at(4.9), 0.0);
   EXPECT_EQ(at(5.0), 1.0);
@@ -173,7 +177,7 @@ TEST(TracedLookup, of_a_local_light_goes_along_its_rays) {
                             nullptr};
   FoundOccluders found(roof);
   const auto at = [&](double x, double y) {
-    const TracedLookup lookup(found, kTiny, map, {x, y, 0.1}, {0, 1, 0});
+    const TracedLookup lookup(found, kTiny, map, map.light_world, {x, y, 0.1}, {0, 1, 0});
     EXPECT_TRUE(lookup.known());
     return lookup.hard();
   };
@@ -192,7 +196,7 @@ TEST(TracedLookup, knows_nothing_of_what_faces_away_or_a_broken_map) {
   flat.clip_from_world[2] = flat.clip_from_world[0];
   behind.clip_from_world[3][3] = -1.0;
   const auto known = [&](const ShadowMap& in, const glm::dvec3& point, const glm::dvec3& normal) {
-    return TracedLookup(found, kTiny, in, point, normal).known();
+    return TracedLookup(found, kTiny, in, in.light_world, point, normal).known();
   };
   EXPECT_TRUE(known(map, glm::dvec3(0.0), {0, 1, 0}));
   EXPECT_FALSE(known(map, glm::dvec3(0.0), {0, -1, 0}));
@@ -208,7 +212,7 @@ TEST(TracedLookup, knows_nothing_of_what_faces_away_or_a_broken_map) {
         [](const void* scene, const glm::dvec3&) noexcept { return *static_cast<const double*>(scene); },
         &result};
     FoundOccluders nothing(one);
-    EXPECT_EQ(TracedLookup(nothing, kTiny, map, glm::dvec3(0.0), {0, 1, 0}).hard(), 1.0);
+    EXPECT_EQ(TracedLookup(nothing, kTiny, map, map.light_world, glm::dvec3(0.0), {0, 1, 0}).hard(), 1.0);
   }
 }
 

@@ -109,7 +109,7 @@ def expected_error(plan: Plan | PagePlan, camera: Camera, mask: ArrayLike, view_
     n distances along the light, world units, each from its point to the occluder nearest the light: negative where that lies
     beyond the point, -inf where there is none. Each pixel is then compared with what lies on the light's ray through the middle
     of its texel. The points come in few batches: one for hard comparison, a few for kernels. Until the call returns, each
-    distinct point takes about 200 bytes. Exceptions of occluders reach the caller. Maps of Map.foreign need their light_world.
+    distinct point takes about 200 bytes. Exceptions of occluders reach the caller.
     normals: beside occluders, (height, width, 3) float32, those of the surfaces, unit, towards the viewer; zero there, and None:
     from view_depths.
 

@@ -259,14 +259,11 @@ class Map(Record):
 
     @classmethod
     def foreign(cls, clip_from_world: ArrayLike, width: int, height: int, depth_begin: float = 0.0,
-                depth_end: float = np.inf, light_world: Optional[ArrayLike] = None) -> "Map":
-        """A map of another planner, to be measured. clip_from_world: (4, 4), in the clip space that Plan.foreign gets. light_world:
-        the light's position and 1, or the unit direction towards it and 0; expected_error() with occluders alone needs it."""
+                depth_end: float = np.inf) -> "Map":
+        """A map of another planner, to be measured. clip_from_world: (4, 4), in the clip space that Plan.foreign gets."""
         struct = make("map")
         struct.clip_from_world[:] = columns_of(clip_from_world, "map.clip_from_world").ravel()
         set_fields(struct, {"width": width, "height": height, "depth_begin": depth_begin, "depth_end": depth_end})
-        if light_world is not None:
-            set_fields(struct, {"light_world": light_world})
         return cls(struct)
 
 

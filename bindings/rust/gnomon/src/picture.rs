@@ -27,7 +27,7 @@ pub struct ShadowPicture<'a> {
     /// Searches what casts shadows in the picture's light, by rays: the distance along the light from a point, world space, to the
     /// occluder nearest the light, world units. Negative where that lies beyond the point, -infinity where there is none. With it
     /// errors are those of the maps' own comparisons. A panic in it comes out of the call; without the feature `std` it aborts.
-    /// Maps of [`Plan::foreign`] need their `light_world` then. `None`: each pixel takes the shadow at the middle of its texel.
+    /// `None`: each pixel takes the shadow at the middle of its texel.
     pub occluders: Option<&'a dyn Fn(Point) -> f64>,
     /// Beside `occluders`: normals of the surfaces, unit, towards the viewer, one for each pixel. Zero there, and empty: from
     /// `view_depths`.
