@@ -25,8 +25,9 @@ void check(const gnomon::report::StoredCostModel& model) {
     for (const char c : filter.name) require(static_cast<unsigned char>(c) >= 0x20, "names are printable");
   require(view.filters.size() == model.filters.size(), "as many filters as in the file");
   for (const gnomon::FilterCost& c : costs)
-    for (const double cost : {c.prefilter_ms_per_map, c.prefilter_ms_per_megatexel, c.lookup_ms_per_megapixel,
-                              c.bytes_per_texel, c.error_ratio, c.error_power, c.kernel_texels})
+    for (const double cost :
+         {c.prefilter_ms_per_map, c.prefilter_ms_per_megatexel, c.lookup_ms_per_megapixel, c.bytes_per_texel,
+          c.error_ratio, c.error_power, c.kernel_texels, c.extent.texels, c.extent.world})
       require_cost(cost);
 }
 

@@ -46,6 +46,7 @@ std::vector<Observation> made_observations() {
     o.wrong = view * (o.compares ? 1.25 * std::pow(o.expected, 0.7) : 0.4 * std::pow(o.expected, 0.3));
     o.pixels = 1e6 * o.megapixels;
     o.kernel_texels = i % 2 == 0 ? 0.0 : 1.5;
+    o.extent = i % 2 == 0 ? FilterExtent{0.0, 0.0} : FilterExtent{2.5, 0.25};
     all.push_back(o);
   }
   return all;
@@ -193,6 +194,8 @@ TEST(CostModel, comes_back_from_its_file) {
   EXPECT_EQ(read.filters[1].cost.error_ratio, model.filters[1].cost.error_ratio);
   EXPECT_EQ(read.filters[1].cost.error_power, model.filters[1].cost.error_power);
   EXPECT_EQ(read.filters[1].cost.kernel_texels, 1.5);
+  EXPECT_EQ(read.filters[0].cost.extent, (FilterExtent{0.0, 0.0}));
+  EXPECT_EQ(read.filters[1].cost.extent, (FilterExtent{2.5, 0.25}));
   std::vector<FilterCost> storage;
   const CostModel view = read.view(storage);
   EXPECT_EQ(view.filters[1].name, "vsm");
@@ -236,7 +239,7 @@ TEST(CostModel, a_file_that_is_none_is_refused_by_name) {
   const auto file = folder.path() / "model.json";
   const std::string deep(1000, '[');
   for (const char* text :
-       {"", "{}", "[1]", "{\"schema\":\"gnomon.cost.4\"}", "{\"schema\":\"gnomon.cost.5\"}", deep.c_str()}) {
+       {"", "{}", "[1]", "{\"schema\":\"gnomon.cost.5\"}", "{\"schema\":\"gnomon.cost.6\"}", deep.c_str()}) {
     std::ofstream(file) << text;
     try {
       (void)load_cost_model(file);

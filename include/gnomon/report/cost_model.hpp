@@ -19,6 +19,7 @@ struct Observation {
   double megapixels = 0.0, bytes_per_texel = 4.0;  ///< of the frame; of everything that is kept
   double frame_ms = 0.0, depth_ms = 0.0, prefilter_ms = 0.0, lookup_ms = 0.0;  ///< measured, milliseconds
   double kernel_texels = 0.0;                                                  ///< FilterCost::kernel_texels
+  FilterExtent extent = {};                                                    ///< FilterCost::extent
   /// The filter takes comparisons of depths, or averages them over its kernel: what expected_error counts.
   bool compares = true;
   double expected = 0.0;  ///< share of the pixels that this kernel misclassifies, predicted: expected_error

@@ -28,6 +28,9 @@ struct FilterCost {
   /// Half side of the box of texels whose comparisons the filter averages, 0..kMaxKernelTexels; 0: it takes
   /// one texel.
   double kernel_texels = 0.0;
+  /// PlanOptions::filter of the filter's plans, in place of that of the base or of PageSet::options. At most
+  /// a quarter of the map, or of the texels that a page serves.
+  FilterExtent extent = {};
 };
 /// Filters of a CostModel have at most so many different kernels: each costs another look at every plan.
 inline constexpr std::size_t kMaxKernels = 8;
@@ -93,12 +96,13 @@ struct PageSet {
 
 /// Candidates: the product of all lists, and the pages. An empty list is the default named beside it.
 struct TechniqueSet {
-  std::span<const Warp* const> warps;        ///< none, lispsm, optimal
-  std::span<const SplitScheme> splits;       ///< automatic
-  std::span<const int> cascades;             ///< 1, 2, 3, 4; local lights ignore it
-  std::span<const int> map_sizes;            ///< 256, 512, 1024, 2048, 4096
-  PageSet pages = {};                        ///< beside that product
-  static constexpr std::size_t kMost = 512;  ///< plans, pages first; what comes later is not tried
+  std::span<const Warp* const> warps;   ///< none, lispsm, optimal
+  std::span<const SplitScheme> splits;  ///< automatic
+  std::span<const int> cascades;        ///< 1, 2, 3, 4; local lights ignore it
+  std::span<const int> map_sizes;       ///< 256, 512, 1024, 2048, 4096
+  PageSet pages = {};                   ///< beside that product
+  /// Plans, pages first; what comes later is not tried. Filters of the same FilterCost::extent share them.
+  static constexpr std::size_t kMost = 512;
 };
 
 /// One technique with what it would cost and err.
@@ -138,8 +142,8 @@ struct TechniqueChoice {
 ///
 /// `shadow`: of the last frame or of rays, and of the same view. Without its occluders it should be as fine
 /// as the texels. A large picture takes no longer: at most 65 536 of its pixels are counted, spread evenly.
-/// `base` gives all options that are not chosen. `casters`: one entry per box of bounds.casters, in their
-/// order; missing ones cost nothing.
+/// `base` gives all options that are neither chosen nor a filter's. `casters`: one entry per box of
+/// bounds.casters, in their order; missing ones cost nothing.
 [[nodiscard]] TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow,
                                                const Light& light, const SceneBounds& bounds,
                                                std::span<const CasterWork> casters, const TechniqueSet& among,

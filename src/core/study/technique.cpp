@@ -15,9 +15,9 @@ constexpr double kMega = 1e6;
 /// How much less counts as a trade.
 constexpr double kTrade = 0.8;
 
-/// One plan, for all filters.
+/// One plan, for all filters of one extent.
 struct Planned {
-  Technique technique;
+  Technique technique;                      ///< its filter is the first of them
   std::array<double, kMaxKernels> wrong{};  ///< share of the pixels, expected with each of the kernels
   PlanWork work;
 };
@@ -61,7 +61,6 @@ class Kernels {
       for (const FilterCost& f : kind->filters) add(f.kernel_texels);
   }
   [[nodiscard]] bool too_many() const noexcept { return too_many_; }
-  [[nodiscard]] std::span<const double> texels() const noexcept { return {texels_.data(), count_}; }
   [[nodiscard]] std::size_t number_of(double texels) const noexcept {
     return static_cast<std::size_t>(std::find(texels_.begin(), texels_.begin() + count_, texels) -
                                     texels_.begin());
@@ -85,8 +84,26 @@ bool are_costs(std::span<const FilterCost> filters) noexcept {
            is_limit(f.lookup_ms_per_megapixel) && is_limit(f.bytes_per_texel) &&
            f.bytes_per_texel <= kMaxBytes && is_limit(f.error_ratio) && f.error_ratio > 0.0 &&
            f.error_power >= 0.0 && f.error_power <= kMaxPower && f.kernel_texels >= 0.0 &&
-           f.kernel_texels <= kMaxKernelTexels;
+           f.kernel_texels <= kMaxKernelTexels && is_limit(f.extent.texels) && is_limit(f.extent.world);
   });
+}
+
+/// How far the filter reaches in a map, or in what a page serves, of so many texels along each side: what
+/// small ones cannot spare is cut.
+FilterExtent extent_within(const FilterCost& filter, int side_texels) noexcept {
+  return {std::min(filter.extent.texels, 0.25 * side_texels), filter.extent.world};
+}
+
+/// Calls `use` with the number of the first filter of each extent, until it returns false; returns whether
+/// none did.
+template <class Use>
+bool each_extent(std::span<const FilterCost> filters, Use&& use) noexcept {
+  for (auto filter = filters.begin(); filter != filters.end(); ++filter) {
+    const auto alike = [&](const FilterCost& other) { return other.extent == filter->extent; };
+    const bool first = std::find_if(filters.begin(), filter, alike) == filter;
+    if (first && !use(static_cast<int>(filter - filters.begin()))) return false;
+  }
+  return true;
 }
 
 std::string_view broken(const Budget& budget, const CostModel& costs, const TechniqueSet& among) noexcept {
@@ -127,10 +144,15 @@ class Choosing {
     Planned& planned = all_[count_++];
     planned.technique = technique;
     planned.work = work;
-    const std::span<const double> texels = kernels_.texels();
-    for (std::size_t i = 0; i < texels.size(); ++i)
-      planned.wrong[i] = expected_error(plan, shadow, texels[i], pixels_between(shadow)).share();
-    tried_ += costs_of(technique).filters.size();
+    std::array<bool, kMaxKernels> known{};
+    each_filter(planned, [&](std::size_t filter) {
+      ++tried_;
+      const double texels = costs_of(technique).filters[filter].kernel_texels;
+      const std::size_t kernel = kernels_.number_of(texels);
+      if (known[kernel]) return;
+      known[kernel] = true;
+      planned.wrong[kernel] = expected_error(plan, shadow, texels, pixels_between(shadow)).share();
+    });
   }
   [[nodiscard]] int tried() const noexcept { return static_cast<int>(tried_); }
 
@@ -217,10 +239,16 @@ class Choosing {
 
   template <class Visit>
   void each(Visit&& visit) const noexcept {
-    for (std::size_t i = 0; i < count_; ++i) {
-      const std::size_t filters = costs_of(all_[i].technique).filters.size();
-      for (std::size_t filter = 0; filter < filters; ++filter) visit(priced(all_[i], filter));
-    }
+    for (std::size_t i = 0; i < count_; ++i)
+      each_filter(all_[i], [&](std::size_t filter) { visit(priced(all_[i], filter)); });
+  }
+  /// The filters whose extent the plan has.
+  template <class Visit>
+  void each_filter(const Planned& planned, Visit&& visit) const noexcept {
+    const std::span<const FilterCost> filters = costs_of(planned.technique).filters;
+    const FilterExtent& extent = filters[static_cast<std::size_t>(planned.technique.filter)].extent;
+    for (std::size_t filter = 0; filter < filters.size(); ++filter)
+      if (filters[filter].extent == extent) visit(filter);
   }
 
   const CostModel& costs_;
@@ -231,7 +259,7 @@ class Choosing {
   std::size_t count_ = 0, tried_ = 0;
 };
 
-PlanOptions options_of(const PlanOptions& base, const Technique& t) noexcept {
+PlanOptions options_of(const PlanOptions& base, const Technique& t, const FilterCost& filter) noexcept {
   PlanOptions options = base;
   options.warp.warp = t.warp;
   options.split.scheme = t.split;
@@ -241,8 +269,13 @@ PlanOptions options_of(const PlanOptions& base, const Technique& t) noexcept {
   options.resolution.max_error = 0.0;
   // Sizes are what is chosen among.
   options.prune = base.prune.without(PruneRule::metric_resolution);
-  // What a small map cannot spare.
-  options.filter.texels = std::min(base.filter.texels, 0.25 * t.map_size);
+  options.filter = extent_within(filter, t.map_size);
+  return options;
+}
+
+PageOptions options_of(const PageOptions& pages, const FilterCost& filter) noexcept {
+  PageOptions options = pages;
+  options.plan.filter = extent_within(filter, pages.page_texels);
   return options;
 }
 
@@ -278,27 +311,43 @@ TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, 
     return plan.status != PlanStatus::ok;
   };
   const PageSet& pages = among.pages;
-  const auto paged = [&](int index) {
+  const auto paged = [&](const PageOptions& options) {
     View seen = view;
     seen.points_world = pages.points_world;
     seen.normals_world = {};
     const PageHistory history{nullptr, pages.feedback};
-    return plan_pages(seen, light, bounds, pages.options[static_cast<std::size_t>(index)], pages.memory,
-                      &history);
+    return plan_pages(seen, light, bounds, options, pages.memory, &history);
   };
-  for (int i = 0; static_cast<std::size_t>(i) < pages.options.size() && !choosing.full(); ++i) {
-    const PagePlan plan = paged(i);
-    if (fails(plan)) return choice;
-    Technique t{pages.options[static_cast<std::size_t>(i)].plan.warp.warp};
+  const auto of_pages = [&](const Technique& t) {
+    return options_of(pages.options[static_cast<std::size_t>(t.pages)],
+                      costs.pages.filters[static_cast<std::size_t>(t.filter)]);
+  };
+  const auto add_pages = [&](Technique t) {
+    if (choosing.full()) return true;
+    const PagePlan plan = paged(of_pages(t));
+    if (fails(plan)) return false;
     t.map_size = plan.slot_texels();
-    t.pages = i;
     t.texels = static_cast<std::int64_t>(plan.pages.size()) * t.map_size * t.map_size;
     choosing.add(t, plan, shadow, planned_work(plan, bounds, casters));
+    return true;
+  };
+  for (int i = 0; static_cast<std::size_t>(i) < pages.options.size(); ++i) {
+    Technique t{pages.options[static_cast<std::size_t>(i)].plan.warp.warp};
+    t.pages = i;
+    const bool planned = each_extent(costs.pages.filters, [&](int filter) {
+      t.filter = filter;
+      return add_pages(t);
+    });
+    if (!planned) return choice;
   }
   const bool positional = !std::holds_alternative<DirectionalLight>(light);
   const std::span<const int> cascades = given_or(among.cascades, kCascades);
+  const auto of_maps = [&](const Technique& t) {
+    return options_of(base, t, costs.filters[static_cast<std::size_t>(t.filter)]);
+  };
   const auto add = [&](Technique t) {
-    const ShadowPlan plan = make_plan(view, light, bounds, options_of(base, t));
+    if (choosing.full()) return true;
+    const ShadowPlan plan = make_plan(view, light, bounds, of_maps(t));
     if (fails(plan)) {
       choice.plan = plan;
       return false;
@@ -311,7 +360,12 @@ TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, 
     for (const SplitScheme split : given_or(among.splits, kSplits)) {
       for (const int count : positional ? cascades.first(1) : cascades) {
         for (const int size : given_or(among.map_sizes, kSizes)) {
-          if (!choosing.full() && !add({warp, split, count, size})) return choice;
+          Technique t{warp, split, count, size};
+          const bool planned = each_extent(costs.filters, [&](int filter) {
+            t.filter = filter;
+            return add(t);
+          });
+          if (!planned) return choice;
         }
       }
     }
@@ -321,11 +375,12 @@ TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, 
   choice.better = choosing.better_than(choice.chosen);
   choice.tried = choosing.tried();
   if (choice.chosen.pages >= 0) {
-    choice.options = pages.options[static_cast<std::size_t>(choice.chosen.pages)].plan;
-    choice.pages = paged(choice.chosen.pages);
+    const PageOptions options = of_pages(choice.chosen);
+    choice.options = options.plan;
+    choice.pages = paged(options);
     return choice;
   }
-  choice.options = options_of(base, choice.chosen);
+  choice.options = of_maps(choice.chosen);
   choice.plan = make_plan(view, light, bounds, choice.options);
   return choice;
 }

@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kCostSchema = "gnomon.cost.5";
+constexpr const char* kCostSchema = "gnomon.cost.6";
 constexpr std::uint64_t kMaxBytes = 1 << 20;  // larger than any cost model
 constexpr std::pair<const char*, double DrawingCosts::*> kDrawing[] = {
     {"frame_ms", &DrawingCosts::per_frame},
@@ -48,6 +48,8 @@ StoredCostModel::Filter filter_from(const Json& json) {
   get_cost(json, "error_ratio", filter.cost.error_ratio);
   get_cost(json, "error_power", filter.cost.error_power);
   get_cost(json, "kernel_texels", filter.cost.kernel_texels);
+  get_cost(json, "extent_texels", filter.cost.extent.texels);
+  get_cost(json, "extent_world", filter.cost.extent.world);
   return filter;
 }
 
@@ -84,7 +86,9 @@ void put(const StoredCosts& costs, Json& json) {
                                {"bytes_per_texel", cost.bytes_per_texel},
                                {"error_ratio", cost.error_ratio},
                                {"error_power", cost.error_power},
-                               {"kernel_texels", cost.kernel_texels}});
+                               {"kernel_texels", cost.kernel_texels},
+                               {"extent_texels", cost.extent.texels},
+                               {"extent_world", cost.extent.world}});
   }
 }
 

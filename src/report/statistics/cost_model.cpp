@@ -212,6 +212,7 @@ StoredCosts fit_alike(std::span<const Observation> observations) {
     cost.lookup_ms_per_megapixel = looked[0];
     cost.bytes_per_texel = any.at(name)->bytes_per_texel;
     cost.kernel_texels = any.at(name)->kernel_texels;
+    cost.extent = any.at(name)->extent;
     law.tell(name, any.at(name)->compares, cost);
     model.filters.push_back({name, cost});
     model.prefilter_error += relative_error(parts.first.rows, parts.first.values, stored) / count;

@@ -154,6 +154,7 @@ report::Observation Replanned::observe(const report::Row& row) const {
   o.prefilter_ms = row.times.prefilter_ms.median;
   o.lookup_ms = row.times.shade_ms.median;
   o.kernel_texels = averaged_texels(entry.filter);
+  o.extent = entry.plan.filter;
   o.compares = compares(entry.filter);
   o.wrong = wrong_pixels(row);
   o.pixels = static_cast<double>(row.errors.pixels);

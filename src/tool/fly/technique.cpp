@@ -105,7 +105,9 @@ report::StoredCostModel model_of(const Options& options) {
     }
   }
   report::StoredCostModel model;
-  model.filters.push_back({render::to_string(options.filter), {}});
+  FilterCost free;
+  free.extent = options.plan.filter;
+  model.filters.push_back({render::to_string(options.filter), free});
   if (options.pages.on()) model.pages.filters = model.filters;
   return model;
 }

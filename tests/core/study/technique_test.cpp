@@ -175,6 +175,46 @@ TEST(Technique, each_filter_errs_as_its_kernel_is_expected_to) {
   }
 }
 
+TEST(Technique, each_filter_is_planned_with_its_own_border) {
+  Plain plain;
+  const int size[] = {256};
+  plain.among.map_sizes = size;
+  plain.budget.alike = 0.0;
+  // The base's counts for none of them.
+  plain.base.filter = {7.0, 0.0};
+  FilterCost filters[] = {kFilters[0], kFilters[1], kFilters[1]};
+  filters[0].extent = {0.0, 0.0};
+  filters[1].extent = filters[2].extent = {24.0, 0.0};
+  std::vector<Technique> alone;
+  for (const FilterCost& filter : filters) {
+    plain.costs.filters = {&filter, 1};
+    const TechniqueChoice choice = plain.choose();
+    ASSERT_EQ(choice.status, PlanStatus::ok);
+    EXPECT_EQ(choice.options.filter, filter.extent);
+    EXPECT_EQ(choice.chosen.error, filter.error_ratio * expected_error(choice.plan, plain.shadow()).share());
+    alone.push_back(choice.chosen);
+  }
+  // A wide border leaves coarser texels.
+  EXPECT_GT(alone[1].error / filters[1].error_ratio, 1.05 * alone[0].error / filters[0].error_ratio);
+  // Together each has what it has alone, and filters of one border share their plans.
+  for (const bool hard_is_dear : {false, true}) {
+    filters[0].lookup_ms_per_megapixel = hard_is_dear ? 1e9 : 0.0;
+    plain.costs.filters = filters;
+    plain.budget.milliseconds = 1e6;
+    const TechniqueChoice choice = plain.choose();
+    const auto own = static_cast<std::size_t>(hard_is_dear ? 1 : 0);
+    EXPECT_EQ(choice.chosen.filter, static_cast<int>(own));
+    EXPECT_EQ(choice.chosen.error, alone[own].error);
+    EXPECT_EQ(choice.options.filter, filters[own].extent);
+    EXPECT_EQ(choice.tried, 3 * 4 * 3);
+  }
+  // What a small map cannot spare.
+  filters[0] = kFilters[0];
+  filters[0].extent = {1e6, 0.0};
+  plain.costs.filters = {filters, 1};
+  EXPECT_EQ(plain.choose().options.filter.texels, 64.0);
+}
+
 TEST(Technique, a_large_picture_takes_no_more_pixels_than_a_small_one) {
   Plain plain;
   const int size[] = {512}, one[] = {1};
@@ -367,6 +407,14 @@ TEST(Technique, broken_input_is_named) {
   for (const double bad : {nan, infinity, -1.0, kMaxKernelTexels + 1.0}) {
     kernels[0].kernel_texels = bad;
     EXPECT_EQ(field(plain), "cost_model.filters");
+    kernels[0].kernel_texels = 0.0;
+    if (bad > 0.0 && std::isfinite(bad)) continue;  // an extent is cut
+    for (double FilterExtent::*const side : {&FilterExtent::texels, &FilterExtent::world}) {
+      kernels[0].extent = {};
+      kernels[0].extent.*side = bad;
+      EXPECT_EQ(field(plain), "cost_model.filters");
+    }
+    kernels[0].extent = {};
   }
   plain = {};
   const int sizes[] = {1024, 2};

@@ -132,13 +132,13 @@ TEST_F(Flythrough, chooses_among_maps_and_pages) {
   EXPECT_EQ(reads.code, 2);
   EXPECT_NE(reads.error.find("--pages picture: reads what was drawn"), std::string::npos) << reads.error;
   const fs::path model = out() / "maps_alone.json";
-  std::ofstream(model) << R"({"schema": "gnomon.cost.5", "machine": "m",
+  std::ofstream(model) << R"({"schema": "gnomon.cost.6", "machine": "m",
     "mean_relative_error": {"depth": 0, "prefilter": 0, "lookup": 0}, "frame_ms": 0, "ms_per_map": 0,
     "ms_per_megatexel": 1, "ms_per_kilodraw": 0, "ms_per_megatriangle": 0, "ms_per_megatexel_covered": 0,
     "ms_per_megatexel_tested": 0,
     "filters": [{"name": "hard", "prefilter_ms_per_map": 0, "prefilter_ms_per_megatexel": 0,
       "lookup_ms_per_megapixel": 1, "bytes_per_texel": 4, "error_ratio": 1, "error_power": 1,
-      "kernel_texels": 0}]})";
+      "kernel_texels": 0, "extent_texels": 0, "extent_world": 0}]})";
   const Outcome none =
       fly("builtin:fence --pages resolution --target-error 0.01 --cost-model " + model.string());
   EXPECT_EQ(none.code, 2);
