@@ -2,9 +2,12 @@
 // policies?
 #include "technique_words.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <stdexcept>
+#include <type_traits>
 
 #include "filter_words.hpp"
 #include "identifier_word.hpp"
@@ -18,8 +21,9 @@ namespace {
   throw std::runtime_error(option + " " + word + ": " + why);
 }
 
-/// False where `text` is no whole number from `low` to `high`.
-bool read_number(std::string_view text, int low, int high, int& number) {
+/// False where `text` is no number from `low` to `high`; of an int, no whole one.
+template <class Number>
+bool read_number(std::string_view text, Number low, Number high, Number& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   return error == std::errc{} && end == text.data() + text.size() && number >= low && number <= high;
 }
@@ -69,17 +73,21 @@ bool take_suffix(std::string& name, std::string_view suffix) {
   return true;
 }
 
-/// Takes `:slices=K` off a split's name, where it has one.
-std::optional<int> take_slices(const std::string& option, const std::string& word, std::string& name) {
-  constexpr std::string_view kSlices = ":slices=";
-  const std::size_t at = name.find(kSlices);
+/// Takes `:KEY=NUMBER` off a split's name, where it has one.
+template <class Number>
+std::optional<Number> take_number(const std::string& option, const std::string& word, std::string& name,
+                                  const std::string& key, Number low, Number high) {
+  const std::string text = ":" + key + "=";
+  const std::size_t at = name.find(text);
   if (at == std::string::npos) return std::nullopt;
-  const std::size_t begin = at + kSlices.size(), end = std::min(name.find(':', begin), name.size());
-  int count = 0;
-  if (!read_number(std::string_view(name).substr(begin, end - begin), 1, kMaxMaps, count))
-    refuse(option, word, "slices must be a whole number from 1 to " + std::to_string(kMaxMaps));
+  const std::size_t begin = at + text.size(), end = std::min(name.find(':', begin), name.size());
+  Number number = 0;
+  if (!read_number(std::string_view(name).substr(begin, end - begin), low, high, number))
+    refuse(option, word,
+           fmt::format("{} must be a {}number from {} to {}", key, std::is_integral_v<Number> ? "whole " : "",
+                       low, high));
   name.erase(at, end - at);
-  return count;
+  return number;
 }
 
 }  // namespace
@@ -136,13 +144,17 @@ TechniqueSplit technique_split(const std::string& option, const std::string& wor
     split.points = PlanPoints::visible;
   else if (take_suffix(name, ":shadow_edges"))
     split.points = PlanPoints::shadow_edges;
-  const std::optional<int> slices = take_slices(option, word, name);
+  const std::optional<int> slices = take_number(option, word, name, "slices", 1, kMaxMaps);
+  const std::optional<double> lambda = take_number(option, word, name, "lambda", 0.0, 1.0);
   const bool is_partition = partition_from_name(name, split.options.partition);
   if (slices && (!is_partition || split.options.partition != Partition::frustum_faces))
     refuse(option, word, "only frustum_faces has slices");
   split.options.face_slices = slices.value_or(1);
   if (!split_scheme_from_name(name, split.options.scheme) && (!is_partition || name == "view_depth"))
     refuse_name(option, word, split_names());
+  if (lambda && split.options.scheme != SplitScheme::practical)
+    refuse(option, word, "only practical has lambda");
+  split.options.lambda = lambda.value_or(split.options.lambda);
   return split;
 }
 

@@ -102,7 +102,7 @@ template <class Value>
 /// `:visible_depths` and `:visible_points` (what the frame shows is given to the plan), or `:coarse_depths`
 /// (what a coarse pass on the CPU finds), `:shadow_edges` (points of the last frame's) and `:budget` (the
 /// maps share the texels of equal ones, ResolutionOptions::texel_budget); behind frustum_faces `:slices=K`
-/// (SplitOptions::face_slices).
+/// (SplitOptions::face_slices), behind practical `:lambda=L` (SplitOptions::lambda).
 [[nodiscard]] std::vector<std::string> split_names();
 
 /// Elements of lists with commas; an element of the form `key=value` without a colon belongs to the one

@@ -89,6 +89,48 @@ TEST(Compare, divides_the_faces_of_the_frustum_further) {
   }
 }
 
+TEST(Compare, blends_practical_splits_by_lambda) {
+  const TemporaryFolder folder;
+  const Finished finished =
+      run_gnomon({"compare",
+                  "builtin:hangar",
+                  "--warps",
+                  "none",
+                  "--splits",
+                  "uniform,practical:lambda=0,practical:lambda=0.5,practical,practical:lambda=1,logarithmic",
+                  "--cascades",
+                  "2",
+                  "--filters",
+                  "hard",
+                  "--frames",
+                  "1",
+                  "--size",
+                  "96x54",
+                  "--map-sizes",
+                  "256",
+                  "--rounds",
+                  "1",
+                  "--context",
+                  "osmesa",
+                  "--out",
+                  folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  ASSERT_EQ(rows.size(), 6u);
+  const auto m = [&](std::size_t row) { return rows[row].aliasing.p95; };
+  EXPECT_EQ(rows[2].technique.split, "practical:lambda=0.5");
+  EXPECT_EQ(m(1), m(0));
+  EXPECT_EQ(m(4), m(5));
+  EXPECT_NE(m(2), m(0));
+  EXPECT_NE(m(3), m(2));
+  for (const char* bad : {"practical:lambda=1.1", "practical:lambda=-1", "practical:lambda=nan",
+                          "practical:lambda=", "practical:lambda=0.5x", "auto:lambda=0.5"}) {
+    const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", bad});
+    EXPECT_EQ(refused.exit_code, 2) << bad;
+    EXPECT_NE(refused.err.find(bad), std::string::npos) << refused.err;
+  }
+}
+
 TEST(Compare, plans_with_the_edges_of_the_last_frames_shadow) {
   const TemporaryFolder folder;
   const Finished finished = run_gnomon({"compare",     "builtin:room",
