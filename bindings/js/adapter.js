@@ -3,10 +3,7 @@ import { GnomonError } from './memory.js';
 
 // Far smaller texels than a grid that never moves, and at their place as long as the view stays in a map.
 const DEFAULTS = { fit: 'warped_stable' };
-// The first map of a grid that never moves begins at the near plane, whatever is in view: more weight on even splits keeps it
-// from being spent on the metres before the eye.
-const STEADY = { fit: 'stable', splitScheme: 'practical', splitLambda: 0.7 };
-export const withDefaults = (options) => ({ ...(options.fit === 'stable' ? STEADY : DEFAULTS), ...options });
+export const withDefaults = (options) => ({ ...DEFAULTS, ...options });
 
 /** Refuses what load() did not return, before a frame does. */
 export function loaded(gnomon) {

@@ -97,7 +97,7 @@ enum class MapSelection : std::uint8_t {
 struct SplitOptions {
   SplitScheme scheme = SplitScheme::automatic;  ///< how depths are divided
   /// practical: blend of uniform (0) and logarithmic (1) splits; clamped to [0,1], NaN counts as 0.5.
-  double lambda = 0.9;
+  double lambda = 0.7;
   /// View depth, world units, from which error counts: nearer surfaces keep their shadow and do not draw
   /// texels towards the eye. Also the first split of SplitScheme::pseudo_near. 0: the near plane itself.
   double pseudo_near = 0.0;

@@ -311,7 +311,7 @@ typedef struct gnomon_plan_options {
   int32_t fit;
 
   int32_t split_scheme;      ///< GNOMON_SPLITS: how depths are divided among cascades; default auto
-  double split_lambda;       ///< practical: from uniform (0) to logarithmic (1); default 0.9
+  double split_lambda;       ///< practical: from uniform (0) to logarithmic (1); default 0.7
   double split_pseudo_near;  ///< view depth from which error counts, world units, >= 0; default 0
   int32_t split_range;       ///< GNOMON_RANGE_AUTOMATIC, the default, and others: which depths are divided
   int32_t

@@ -356,7 +356,7 @@ pub struct gnomon_plan_options {
     pub fit: i32,
     /// GNOMON_SPLITS: how depths are divided among cascades; default auto
     pub split_scheme: i32,
-    /// practical: from uniform (0) to logarithmic (1); default 0.9
+    /// practical: from uniform (0) to logarithmic (1); default 0.7
     pub split_lambda: f64,
     /// view depth from which error counts, world units, >= 0; default 0
     pub split_pseudo_near: f64,
