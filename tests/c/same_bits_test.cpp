@@ -8,7 +8,6 @@
 
 #include "draw.hpp"
 #include "gnomon/casefile/casefile.hpp"
-#include "gnomon/study/expected_error.hpp"
 #include "in_c.hpp"
 
 namespace gnomon::test {
@@ -377,32 +376,6 @@ TEST(SameBits, pages_are_those_of_cpp) {
   ASSERT_EQ(gnomon_measure_pages(&found, &input.view, &input.scene, nullptr, &stats, nullptr, nullptr),
             GNOMON_OK);
   EXPECT_EQ(first_difference(measure(plan, view, street.bounds()).m, stats), "");
-
-  // Stripes on whatever the camera sees at one depth.
-  const auto count =
-      static_cast<std::size_t>(street.camera.width) * static_cast<std::size_t>(street.camera.height);
-  std::vector<float> mask(count);
-  for (std::size_t i = 0; i < count; ++i) mask[i] = i / 7 % 2 == 0 ? 1.0f : 0.0f;
-  const std::vector<float> depths(count, 14.0f);
-  gnomon_shadow_picture picture;
-  gnomon_shadow_picture_default(&picture, sizeof picture);
-  picture.camera = &input.camera;
-  picture.mask = mask.data();
-  picture.view_depths = depths.data();
-  picture.pixel_count = static_cast<int64_t>(count);
-  gnomon_wrong_pixels pixels;
-  ASSERT_EQ(gnomon_expected_page_error(&found, &picture, &pixels, nullptr), GNOMON_OK);
-  const ExpectedError expected = expected_error(plan, {street.camera, mask, depths});
-  EXPECT_EQ(std::memcmp(&pixels.wrong, &expected.wrong_pixels, sizeof(double)), 0);
-  EXPECT_EQ(pixels.counted, static_cast<double>(count));
-  EXPECT_TRUE(pixels.share > 0.0 && pixels.share < 1.0) << pixels.share;
-  const char* field = nullptr;
-  EXPECT_EQ(gnomon_expected_page_error(&found, nullptr, &pixels, &field), GNOMON_INVALID_INPUT);
-  EXPECT_STREQ(field, "shadow_picture");
-  EXPECT_EQ(gnomon_expected_page_error(nullptr, &picture, &pixels, &field), GNOMON_INVALID_INPUT);
-  EXPECT_STREQ(field, "page_plan");
-  EXPECT_EQ(gnomon_expected_page_error(&found, &picture, nullptr, &field), GNOMON_INVALID_INPUT);
-  EXPECT_STREQ(field, "pixels");
 
   // A pool draws all pages once, and then only those that a moved caster touches.
   std::vector<gnomon_page_slot> slots(512);

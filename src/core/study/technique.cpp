@@ -17,8 +17,9 @@ constexpr double kTrade = 0.8;
 
 /// One plan, for all filters of one extent.
 struct Planned {
-  Technique technique;                      ///< its filter is the first of them
-  std::array<double, kMaxKernels> wrong{};  ///< share of the pixels, expected with each of the kernels
+  Technique technique;  ///< its filter is the first of them
+  std::array<double, kMaxKernels>
+      wrong;  ///< share of the pixels, expected with each of the kernels they have
   PlanWork work;
 };
 
@@ -94,14 +95,15 @@ FilterExtent extent_within(const FilterCost& filter, int side_texels) noexcept {
   return {std::min(filter.extent.texels, 0.25 * side_texels), filter.extent.world};
 }
 
-/// Calls `use` with the number of the first filter of each extent, until it returns false; returns whether
-/// none did.
-template <class Use>
-bool each_extent(std::span<const FilterCost> filters, Use&& use) noexcept {
+/// Calls `add` with the technique and the first filter of each extent, until it returns false; returns
+/// whether none did.
+template <class Add>
+bool add_each_extent(std::span<const FilterCost> filters, Technique t, const Add& add) noexcept {
   for (auto filter = filters.begin(); filter != filters.end(); ++filter) {
     const auto alike = [&](const FilterCost& other) { return other.extent == filter->extent; };
-    const bool first = std::find_if(filters.begin(), filter, alike) == filter;
-    if (first && !use(static_cast<int>(filter - filters.begin()))) return false;
+    if (std::find_if(filters.begin(), filter, alike) != filter) continue;
+    t.filter = static_cast<int>(filter - filters.begin());
+    if (!add(t)) return false;
   }
   return true;
 }
@@ -144,14 +146,13 @@ class Choosing {
     Planned& planned = all_[count_++];
     planned.technique = technique;
     planned.work = work;
-    std::array<bool, kMaxKernels> known{};
+    constexpr double kNotCounted = -1.0;
+    planned.wrong.fill(kNotCounted);
     each_filter(planned, [&](std::size_t filter) {
       ++tried_;
       const double texels = costs_of(technique).filters[filter].kernel_texels;
-      const std::size_t kernel = kernels_.number_of(texels);
-      if (known[kernel]) return;
-      known[kernel] = true;
-      planned.wrong[kernel] = expected_error(plan, shadow, texels, pixels_between(shadow)).share();
+      double& wrong = planned.wrong[kernels_.number_of(texels)];
+      if (wrong == kNotCounted) wrong = expected_error(plan, shadow, texels, pixels_between(shadow)).share();
     });
   }
   [[nodiscard]] int tried() const noexcept { return static_cast<int>(tried_); }
@@ -334,11 +335,7 @@ TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, 
   for (int i = 0; static_cast<std::size_t>(i) < pages.options.size(); ++i) {
     Technique t{pages.options[static_cast<std::size_t>(i)].plan.warp.warp};
     t.pages = i;
-    const bool planned = each_extent(costs.pages.filters, [&](int filter) {
-      t.filter = filter;
-      return add_pages(t);
-    });
-    if (!planned) return choice;
+    if (!add_each_extent(costs.pages.filters, t, add_pages)) return choice;
   }
   const bool positional = !std::holds_alternative<DirectionalLight>(light);
   const std::span<const int> cascades = given_or(among.cascades, kCascades);
@@ -360,12 +357,7 @@ TechniqueChoice choose_technique(const View& view, const ShadowPicture& shadow, 
     for (const SplitScheme split : given_or(among.splits, kSplits)) {
       for (const int count : positional ? cascades.first(1) : cascades) {
         for (const int size : given_or(among.map_sizes, kSizes)) {
-          Technique t{warp, split, count, size};
-          const bool planned = each_extent(costs.filters, [&](int filter) {
-            t.filter = filter;
-            return add(t);
-          });
-          if (!planned) return choice;
+          if (!add_each_extent(costs.filters, {warp, split, count, size}, add)) return choice;
         }
       }
     }
