@@ -50,8 +50,9 @@ namespace gnomon {
   // The light travels along sense * (apart + spread * point).
   const glm::dvec3 apart = w.w * glm::cross(x3, y3) - y.w * glm::cross(x3, w3) + x.w * glm::cross(y3, w3);
   const double spread = glm::dot(glm::cross(x3, y3), w3), sense = light_sense(map);
-  // Far above rounding: what a warp makes of a parallel light.
-  constexpr double kParallel = 1e-7;
+  // Far above what rounding to single precision makes of a warp under a parallel light, which may have either
+  // sign; far below what a local light has.
+  constexpr double kParallel = 1e-5;
   const bool parallel = std::abs(spread) <= kParallel * glm::length(x3) * glm::length(y3) * glm::length(w3);
   const glm::dvec4 light = parallel ? glm::dvec4(-sense * safe_normalize(apart, glm::dvec3(0.0)), 0.0)
                                     : glm::dvec4(apart / -spread, 1.0);

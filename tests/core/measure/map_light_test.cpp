@@ -22,6 +22,13 @@ ShadowPlan plan_of(const Light& light, const Warp& warp, const ClipSpace& space)
   return make_plan(camera, light, {boxes, boxes}, options);
 }
 
+/// A matrix as engines have it: of products in single precision, each number off by a few roundings.
+glm::dmat4 in_single(glm::dmat4 m) {
+  constexpr double kRoundings = 4.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
+  for (int i = 0; i < 16; ++i) m[i / 4][i % 4] *= 1.0 + kRoundings * std::sin(7.0 * i);
+  return m;
+}
+
 TEST(MapLight, is_that_of_the_matrix_where_the_map_names_another) {
   const Light lights[] = {DirectionalLight{{0.4, -1, 0.3}}, DirectionalLight{{0.9, -0.1, -0.2}},
                           SpotLight{{2, 9, -12}, {0.1, -1, -0.4}, 0.7, 60.0}, PointLight{{-3, 5, -14}, 80.0}};
@@ -35,21 +42,24 @@ TEST(MapLight, is_that_of_the_matrix_where_the_map_names_another) {
         ASSERT_EQ(plan.status, PlanStatus::ok);
         for (const ShadowMap& map : plan.maps()) {
           EXPECT_EQ(light_of(map), map.light_world) << "what the map names is kept";
-          for (const glm::dvec4& other : {glm::dvec4(0, 1, 0, 0), glm::dvec4(0.6, 0.8, 0, 0),
-                                          glm::dvec4(5, 5, 5, 1), glm::dvec4(0.0)}) {
-            ShadowMap foreign = map;
-            foreign.light_world = other;
-            const glm::dvec4 at = light_of(foreign);
-            ASSERT_EQ(at.w, map.light_world.w) << warp->name;
-            const double size = glm::length(glm::dvec3(map.light_world));
-            EXPECT_LE(glm::length(at - map.light_world), 1e-6 * size) << warp->name;
-            ++found;
+          for (const bool single : {false, true}) {
+            for (const glm::dvec4& other : {glm::dvec4(0, 1, 0, 0), glm::dvec4(0.6, 0.8, 0, 0),
+                                            glm::dvec4(5, 5, 5, 1), glm::dvec4(0.0)}) {
+              ShadowMap foreign = map;
+              foreign.light_world = other;
+              if (single) foreign.clip_from_world = in_single(map.clip_from_world);
+              const glm::dvec4 at = light_of(foreign);
+              ASSERT_EQ(at.w, map.light_world.w) << warp->name;
+              const double size = glm::length(glm::dvec3(map.light_world));
+              EXPECT_LE(glm::length(at - map.light_world), (single ? 1e-4 : 1e-6) * size) << warp->name;
+              ++found;
+            }
           }
         }
       }
     }
   }
-  EXPECT_GT(found, 300);
+  EXPECT_GT(found, 600);
 }
 
 TEST(MapLight, of_no_use_is_left_as_it_is) {
