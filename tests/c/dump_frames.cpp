@@ -204,7 +204,9 @@ void write_picture(File& file, const Street& street, const gnomon_camera& camera
     const glm::dvec3 at = camera.position + ray * depth;
     depths.push_back(static_cast<float>(depth));
     mask.push_back(slats(&way.x, &at.x) < 0.0 ? 1.0f : 0.0f);
-    for (const float part : {0.0f, i % 3 == 0 ? 0.0f : 1.0f, 0.0f}) normals.push_back(part);
+    // Not those of the ground, which the depths show.
+    for (const float part : {0.0f, i % 3 == 0 ? 0.0f : 0.8f, i % 3 == 0 ? 0.0f : 0.6f})
+      normals.push_back(part);
     distances.push_back(static_cast<float>(i % 9) * 0.125f);
   }
   gnomon_shadow_picture picture;

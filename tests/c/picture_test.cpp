@@ -8,6 +8,7 @@
 #include <limits>
 #include <random>
 
+#include "gnomon/pages.hpp"
 #include "gnomon/study/expected_error.hpp"
 #include "in_c.hpp"
 
@@ -23,6 +24,7 @@ struct Street {
   Camera camera =
       perspective_camera({0, 3, 10}, {0, -0.1, -1}, {0, 1, 0}, 1.0, 1.5, 0.2, 250.0, kWidth, kHeight);
   DirectionalLight sun{{0.4, -1, 0.3}};
+  std::vector<glm::dvec3> points;  ///< of the floor, as the pixels show them; beyond the horizon the eye
   std::vector<float> mask, depths, distances;
   gnomon_camera camera_in_c = in_c(camera);
   gnomon_shadow_picture picture{};
@@ -37,6 +39,7 @@ struct Street {
             axes.up * (camera.top + (camera.bottom - camera.top) * (y + 0.5) / kHeight);
         const double depth = ray.y < 0.0 ? -camera.position.y / ray.y : 0.0;
         const glm::dvec3 at = camera.position + ray * depth;
+        points.push_back(at);
         depths.push_back(static_cast<float>(depth));
         mask.push_back(std::sin(at.x + 0.4 * at.z) > 0.3 ? 1.0f : 0.0f);
         distances.push_back(static_cast<float>(0.5 + 0.5 * std::sin(at.z)));
@@ -137,32 +140,33 @@ struct Slats {
             },
             this};
   }
-  /// The street's shadow becomes that of the slats.
-  void shade(Street& street) const {
-    const CameraAxes axes = camera_axes(street.camera);
-    for (int i = 0; i < kWidth * kHeight; ++i) {
-      const Camera& c = street.camera;
-      const auto pixel = static_cast<std::size_t>(i);
-      const glm::dvec3 ray = axes.forward +
-                             axes.right * (c.left + (c.right - c.left) * (i % kWidth + 0.5) / kWidth) +
-                             axes.up * (c.top + (c.bottom - c.top) * (i / kWidth + 0.5) / kHeight);
-      const double depth = static_cast<double>(street.depths[pixel]);
-      street.mask[pixel] = distance(c.position + ray * depth) > 0.0 ? 0.0f : 1.0f;
-    }
-    street.picture.occluder_search = from_c;
-    street.picture.occluder_scene = this;
+};
+
+/// The street in the shadow of the slats, and a plan of it.
+struct SlattedStreet : Street {
+  Slats slats;
+  ShadowPlan own;
+
+  SlattedStreet() {
+    for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = slats.distance(points[i]) > 0.0 ? 0.0f : 1.0f;
+    picture.occluder_search = Slats::from_c;
+    picture.occluder_scene = &slats;
+    PlanOptions options;
+    options.resolution.max_size = 256;
+    own = plan(options);
+  }
+  /// Of the plan in C.
+  [[nodiscard]] gnomon_wrong_pixels expected() const {
+    gnomon_wrong_pixels pixels{};
+    EXPECT_EQ(gnomon_expected_error(&found.plan, &picture, &pixels, nullptr), GNOMON_OK);
+    return pixels;
   }
 };
 
 TEST(PictureInC, a_search_gives_the_pixels_of_cpp) {
-  Street street;
-  const Slats slats;
-  slats.shade(street);
-  PlanOptions options;
-  options.resolution.max_size = 256;
-  const ShadowPlan plan = street.plan(options);
-  // Facing up, as the floor does; a third of them not known, some broken.
-  std::vector<glm::vec3> normals(street.mask.size(), glm::vec3(0, 1, 0));
+  SlattedStreet street;
+  // Leaning, as the floor does not; a third of them not known, some broken.
+  std::vector<glm::vec3> normals(street.mask.size(), glm::vec3(0.0f, 0.8f, 0.6f));
   for (std::size_t i = 0; i < normals.size(); i += 3) normals[i] = glm::vec3(i % 2 == 0 ? 0.0f : kNan);
   double last = -1.0;
   for (const double kernel : {0.0, 1.5, 4.0}) {
@@ -170,58 +174,44 @@ TEST(PictureInC, a_search_gives_the_pixels_of_cpp) {
       street.picture.kernel_texels = kernel;
       street.picture.normals = facing ? &normals[0].x : nullptr;
       ShadowPicture shadow = street.shadow();
-      shadow.occluders = slats.from_cpp();
+      shadow.occluders = street.slats.from_cpp();
       if (facing) shadow.normals_world = normals;
-      const ExpectedError expected = expected_error(plan, shadow, kernel);
-      gnomon_wrong_pixels pixels;
-      slats.searches = 0;
-      ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &pixels, nullptr), GNOMON_OK);
-      EXPECT_GT(slats.searches, 1000);
+      const ExpectedError expected = expected_error(street.own, shadow, kernel);
+      street.slats.searches = 0;
+      const gnomon_wrong_pixels pixels = street.expected();
+      EXPECT_GT(street.slats.searches, 1000);
       EXPECT_EQ(std::memcmp(&pixels.wrong, &expected.wrong_pixels, sizeof(double)), 0) << kernel;
       EXPECT_EQ(pixels.counted, expected.counted_pixels);
       EXPECT_GT(pixels.wrong, 0.0);
-      if (!facing) {
-        EXPECT_NE(pixels.wrong, last) << "the kernel is not passed";
-        last = pixels.wrong;
-      }
+      EXPECT_NE(pixels.wrong, last) << "the kernel or the normals are not passed";
+      last = pixels.wrong;
     }
   }
   // What the picture alone shows is something else, and distances change nothing beside a search.
   street.picture.kernel_texels = 0.0;
   street.picture.normals = nullptr;
-  gnomon_wrong_pixels searched, beside, alone;
-  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &searched, nullptr), GNOMON_OK);
+  const gnomon_wrong_pixels searched = street.expected();
   street.picture.occluder_distances = street.distances.data();
-  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &beside, nullptr), GNOMON_OK);
+  const gnomon_wrong_pixels beside = street.expected();
   EXPECT_EQ(std::memcmp(&searched, &beside, sizeof beside), 0);
   street.picture.occluder_search = nullptr;
-  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &alone, nullptr), GNOMON_OK);
-  EXPECT_NE(alone.wrong, searched.wrong);
+  EXPECT_NE(street.expected().wrong, searched.wrong);
 }
 
 TEST(PictureInC, a_search_takes_the_light_of_foreign_maps_from_their_matrices) {
-  Street street;
-  const Slats slats;
-  slats.shade(street);
-  PlanOptions options;
-  options.resolution.max_size = 256;
-  street.plan(options);
-  gnomon_wrong_pixels own, foreign;
-  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &own, nullptr), GNOMON_OK);
+  SlattedStreet street;
+  const double own = street.expected().wrong;
   for (gnomon_map& map : street.found.maps) {
     gnomon_map other;
     gnomon_map_default(&other, sizeof other);
     std::memcpy(map.light_world, other.light_world, sizeof other.light_world);
   }
-  ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &foreign, nullptr), GNOMON_OK);
-  EXPECT_GT(own.wrong, 100.0);
-  EXPECT_NEAR(foreign.wrong, own.wrong, 0.01 * own.wrong);
+  EXPECT_GT(own, 100.0);
+  EXPECT_NEAR(street.expected().wrong, own, 0.01 * own);
 }
 
 TEST(PictureInC, a_search_that_finds_nonsense_gives_a_share) {
-  Street street;
-  Slats().shade(street);
-  street.plan({});
+  SlattedStreet street;
   std::mt19937_64 random(12);
   street.picture.occluder_scene = &random;
   street.picture.occluder_search = [](const void* scene, const double*) {
@@ -230,10 +220,57 @@ TEST(PictureInC, a_search_that_finds_nonsense_gives_a_share) {
   };
   for (const double kernel : {0.0, 2.0}) {
     street.picture.kernel_texels = kernel;
-    gnomon_wrong_pixels pixels;
-    ASSERT_EQ(gnomon_expected_error(&street.found.plan, &street.picture, &pixels, nullptr), GNOMON_OK);
-    EXPECT_TRUE(pixels.share > 0.1 && pixels.share < 1.0) << pixels.share;
+    const double share = street.expected().share;
+    EXPECT_TRUE(share > 0.1 && share < 1.0) << share;
   }
+}
+
+TEST(PictureInC, pages_are_expected_to_get_the_pixels_of_cpp_wrong) {
+  SlattedStreet street;
+  PageOptions options;
+  options.capacity = 64;
+  options.target_m = 8.0;
+  // Of what receives light or shadow: beyond the horizon there is nothing.
+  std::vector<glm::dvec3> points;
+  for (std::size_t i = 0; i < street.points.size(); i += 7)
+    if (street.depths[i] > 0.0f) points.push_back(street.points[i]);
+  std::vector<std::byte> memory(page_memory(options.capacity, points.size()));
+  const View view{.camera = street.camera, .points_world = points};
+  const PagePlan plan = plan_pages(view, street.sun, {street.boxes, street.boxes}, options, memory);
+  ASSERT_EQ(plan.status, PlanStatus::ok);
+
+  InputInC in(street.camera, street.sun, street.boxes, street.boxes, options.plan);
+  in.view.points = &points[0].x;
+  in.view.point_count = static_cast<int64_t>(points.size());
+  gnomon_page_options in_c_options;
+  gnomon_page_options_default(&in_c_options, sizeof in_c_options);
+  in_c_options.plan = &in.options;
+  in_c_options.capacity = options.capacity;
+  in_c_options.target_m = options.target_m;
+  const int64_t bytes = gnomon_page_memory(options.capacity, in.view.point_count);
+  std::vector<std::byte> in_c_memory(static_cast<std::size_t>(bytes));
+  gnomon_page_plan pages;
+  gnomon_page_plan_default(&pages, sizeof pages);
+  ASSERT_EQ(gnomon_plan_pages(&in.view, &in.light, &in.scene, &in_c_options, nullptr, in_c_memory.data(),
+                              bytes, &pages, nullptr),
+            GNOMON_OK);
+
+  gnomon_wrong_pixels pixels{};
+  ASSERT_EQ(gnomon_expected_page_error(&pages, &street.picture, &pixels, nullptr), GNOMON_OK);
+  ShadowPicture shadow = street.shadow();
+  shadow.occluders = street.slats.from_cpp();
+  const ExpectedError expected = expected_error(plan, shadow);
+  EXPECT_EQ(std::memcmp(&pixels.wrong, &expected.wrong_pixels, sizeof(double)), 0);
+  EXPECT_EQ(pixels.counted, expected.counted_pixels);
+  EXPECT_TRUE(pixels.share > 0.0 && pixels.share < 1.0) << pixels.share;
+
+  const char* field = nullptr;
+  EXPECT_EQ(gnomon_expected_page_error(&pages, nullptr, &pixels, &field), GNOMON_INVALID_INPUT);
+  EXPECT_STREQ(field, "shadow_picture");
+  EXPECT_EQ(gnomon_expected_page_error(nullptr, &street.picture, &pixels, &field), GNOMON_INVALID_INPUT);
+  EXPECT_STREQ(field, "page_plan");
+  EXPECT_EQ(gnomon_expected_page_error(&pages, &street.picture, nullptr, &field), GNOMON_INVALID_INPUT);
+  EXPECT_STREQ(field, "pixels");
 }
 
 TEST(PictureInC, a_plan_without_maps_gets_all_that_is_dark_wrong) {

@@ -182,7 +182,7 @@ def test_occluders_get_few_batches_and_give_the_bits_of_a_search_point_by_point(
             return slats(way, np.frombuffer(named[-1]).reshape(1, 3))[0]
 
         struct = gnomon._pictures._picture(camera, mask=mask, view_depths=depths)
-        search = gnomon._pictures._Search(one_by_one)
+        search = gnomon._layout.occluder_search(one_by_one)
         struct.kernel_texels, struct.occluder_search = kernel, ctypes.cast(search, ctypes.c_void_p).value
         expected = c.wrong_pixels()
         gnomon._call.call(name, plan._struct, struct, expected)

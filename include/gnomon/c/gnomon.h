@@ -26,8 +26,8 @@
 //   angles in radians.
 // - Flags are int32_t: 0 is false, anything else true. Numbers beyond 1e30 and not-a-number are refused.
 // - Equal input gives equal bits, on every compiler and processor. No call has global state, sets errno or
-//   throws. None calls back but by gnomon_occluder_search. Calls on different handles may run on different
-//   threads.
+//   throws. gnomon_occluder_search is the only way to be called back. Calls on different handles may run on
+//   different threads.
 // - A call takes up to 512 kB of stack, and gnomon_make_plan 256 kB. Give threads and WebAssembly
 //   modules as much.
 //
@@ -719,9 +719,9 @@ GNOMON_API int32_t gnomon_measure_points(const gnomon_map* map, const gnomon_cam
 
 /// Finds what lies between any point of space and the light, as a map finds it: by rays. `point`: x, y, z,
 /// world space. Returns the distance along the light from there to the occluder nearest the light, world
-/// units. It is negative where that lies beyond the point, -infinity where there is none, and not a number
-/// counts as that. `scene`: gnomon_shadow_picture::occluder_scene. It may make other calls of gnomon. It must
-/// return: no exception and no jump may leave it.
+/// units. Negative: that one lies beyond the point. -infinity, and not a number: there is none. `scene`:
+/// gnomon_shadow_picture::occluder_scene. The search may make other calls of gnomon. It must return: no
+/// exception and no jump may leave it.
 typedef double (*gnomon_occluder_search)(const void* scene, const double point[3]);
 
 /// A shadow as a camera sees it: of other maps, of the last frame, or of rays.
@@ -763,8 +763,8 @@ typedef struct gnomon_wrong_pixels {
   double share;    ///< wrong over counted, in 0..1; 0 where none counts
 } gnomon_wrong_pixels;
 /// Counts the pixels that comparisons in the plan's maps will misclassify, without drawing them. A plan
-/// without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure, with a light of
-/// theirs where light_world is another. Time grows with the pixels.
+/// without maps gets all that is dark wrong. Foreign matrices serve as in gnomon_measure: where light_world
+/// is not the light of a matrix, the matrix's own counts. Time grows with the pixels.
 ///
 /// With occluder_search each pixel is compared with what lies on the light's ray through the middle of its
 /// texel, on the plane of its surface. Neighbours that read one texel search it once.

@@ -210,8 +210,8 @@ std::string compare_footer() {
          ", each with :finest, :visible_depths, :coarse_depths, :visible_points, :shadow_edges or :budget "
          "(maps share their texels) behind "
          "it, and "
-         "frustum_faces with :slices=K for up to K maps along each side face, practical with :lambda=L "
-         "(0 uniform .. 1 logarithmic)" +
+         "frustum_faces with :slices=K for up to K maps along each side face. practical takes :lambda=L, "
+         "0 uniform .. 1 logarithmic" +
          ".\nPages: " + any_of_text(names_in(all_page_policies())) +
          ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
          "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +

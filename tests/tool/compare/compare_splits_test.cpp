@@ -3,12 +3,42 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "compare/technique_words.hpp"
 #include "small_sweep.hpp"
 
 namespace gnomon::test {
 namespace {
+
+/// Rows of a small frame of the hangar by these splits, unwarped and hard.
+std::vector<report::Row> rows_by(const std::string& splits, const std::string& cascades,
+                                 const std::vector<std::string>& more = {}) {
+  const TemporaryFolder folder;
+  std::vector<std::string> words{"compare",     "builtin:hangar",
+                                 "--warps",     "none",
+                                 "--splits",    splits,
+                                 "--cascades",  cascades,
+                                 "--filters",   "hard",
+                                 "--frames",    "1",
+                                 "--size",      "96x54",
+                                 "--map-sizes", "512",
+                                 "--rounds",    "1",
+                                 "--context",   "osmesa",
+                                 "--out",       folder.path().string()};
+  words.insert(words.end(), more.begin(), more.end());
+  const Finished finished = run_gnomon(words);
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+  return report::read_rows(folder.path());
+}
+
+void expect_refused(const std::vector<const char*>& splits) {
+  for (const char* bad : splits) {
+    const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", bad});
+    EXPECT_EQ(refused.exit_code, 2) << bad;
+    EXPECT_NE(refused.err.find(bad), std::string::npos) << refused.err;
+  }
+}
 
 TEST(Compare, takes_each_split_that_it_lists_and_no_other_name_of_one) {
   std::set<std::string> taken;
@@ -21,33 +51,8 @@ TEST(Compare, takes_each_split_that_it_lists_and_no_other_name_of_one) {
 }
 
 TEST(Compare, plans_with_the_finest_map_and_with_what_the_frame_shows) {
-  const TemporaryFolder folder;
-  const Finished finished = run_gnomon({"compare",
-                                        "builtin:hangar",
-                                        "--warps",
-                                        "none",
-                                        "--splits",
-                                        "auto,auto:finest",
-                                        "--cascades",
-                                        "4",
-                                        "--filters",
-                                        "hard",
-                                        "--frames",
-                                        "1",
-                                        "--size",
-                                        "96x54",
-                                        "--map-sizes",
-                                        "512",
-                                        "--rounds",
-                                        "1",
-                                        "--visible-depths",
-                                        "--visible-points",
-                                        "--context",
-                                        "osmesa",
-                                        "--out",
-                                        folder.path().string()});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  const std::vector<report::Row> rows =
+      rows_by("auto,auto:finest", "4", {"--visible-depths", "--visible-points"});
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].technique.split, "auto:visible_depths:visible_points");
   EXPECT_EQ(rows[1].technique.split, "auto:finest:visible_depths:visible_points");
@@ -56,66 +61,23 @@ TEST(Compare, plans_with_the_finest_map_and_with_what_the_frame_shows) {
     EXPECT_LT(row.errors.false_lit + row.errors.false_shadow, 0.1) << row.technique.name();
   }
   EXPECT_LE(rows[1].aliasing.p95, rows[0].aliasing.p95);
-  const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", "auto:best"});
-  EXPECT_EQ(refused.exit_code, 2);
-  EXPECT_NE(refused.err.find("auto:best"), std::string::npos) << refused.err;
+  expect_refused({"auto:best"});
 }
 
 TEST(Compare, divides_the_faces_of_the_frustum_further) {
-  const TemporaryFolder folder;
-  const Finished finished = run_gnomon({"compare",     "builtin:hangar",
-                                        "--warps",     "none",
-                                        "--splits",    "frustum_faces,frustum_faces:slices=2",
-                                        "--cascades",  "4",
-                                        "--filters",   "hard",
-                                        "--frames",    "1",
-                                        "--size",      "96x54",
-                                        "--map-sizes", "512",
-                                        "--rounds",    "1",
-                                        "--context",   "osmesa",
-                                        "--out",       folder.path().string()});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  const std::vector<report::Row> rows = rows_by("frustum_faces,frustum_faces:slices=2", "4");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[1].technique.split, "frustum_faces:slices=2");
   EXPECT_GT(rows[1].costs.maps, rows[0].costs.maps);
   EXPECT_LE(rows[1].aliasing.p95, rows[0].aliasing.p95);
   EXPECT_LT(rows[1].aliasing.p50, rows[0].aliasing.p50);
-  for (const char* bad : {"frustum_faces:slices=0", "frustum_faces:slices=9", "frustum_faces:slices=x",
-                          "frustum_faces:slices=", "auto:slices=2", "separating_plane:slices=2"}) {
-    const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", bad});
-    EXPECT_EQ(refused.exit_code, 2) << bad;
-    EXPECT_NE(refused.err.find(bad), std::string::npos) << refused.err;
-  }
+  expect_refused({"frustum_faces:slices=0", "frustum_faces:slices=9", "frustum_faces:slices=x",
+                  "frustum_faces:slices=", "auto:slices=2", "separating_plane:slices=2"});
 }
 
 TEST(Compare, blends_practical_splits_by_lambda) {
-  const TemporaryFolder folder;
-  const Finished finished =
-      run_gnomon({"compare",
-                  "builtin:hangar",
-                  "--warps",
-                  "none",
-                  "--splits",
-                  "uniform,practical:lambda=0,practical:lambda=0.5,practical,practical:lambda=1,logarithmic",
-                  "--cascades",
-                  "2",
-                  "--filters",
-                  "hard",
-                  "--frames",
-                  "1",
-                  "--size",
-                  "96x54",
-                  "--map-sizes",
-                  "256",
-                  "--rounds",
-                  "1",
-                  "--context",
-                  "osmesa",
-                  "--out",
-                  folder.path().string()});
-  ASSERT_EQ(finished.exit_code, 0) << finished.err;
-  const std::vector<report::Row> rows = report::read_rows(folder.path());
+  const std::vector<report::Row> rows = rows_by(
+      "uniform,practical:lambda=0,practical:lambda=0.5,practical,practical:lambda=1,logarithmic", "2");
   ASSERT_EQ(rows.size(), 6u);
   const auto m = [&](std::size_t row) { return rows[row].aliasing.p95; };
   EXPECT_EQ(rows[2].technique.split, "practical:lambda=0.5");
@@ -123,12 +85,8 @@ TEST(Compare, blends_practical_splits_by_lambda) {
   EXPECT_EQ(m(4), m(5));
   EXPECT_NE(m(2), m(0));
   EXPECT_NE(m(3), m(2));
-  for (const char* bad : {"practical:lambda=1.1", "practical:lambda=-1", "practical:lambda=nan",
-                          "practical:lambda=", "practical:lambda=0.5x", "auto:lambda=0.5"}) {
-    const Finished refused = run_gnomon({"compare", "builtin:hangar", "--splits", bad});
-    EXPECT_EQ(refused.exit_code, 2) << bad;
-    EXPECT_NE(refused.err.find(bad), std::string::npos) << refused.err;
-  }
+  expect_refused({"practical:lambda=1.1", "practical:lambda=-1", "practical:lambda=nan",
+                  "practical:lambda=", "practical:lambda=0.5x", "auto:lambda=0.5"});
 }
 
 TEST(Compare, plans_with_the_edges_of_the_last_frames_shadow) {

@@ -44,7 +44,6 @@ def _picture(camera: Camera, **pixels: ArrayLike | None) -> Any:
 
 
 _SEARCH_FIELD = "shadow_picture.occluder_search"
-_Search = ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_void_p, ctypes.c_void_p)
 _Point = ctypes.c_char * 24  # Three doubles; ctypes.string_at takes twice as long.
 
 
@@ -76,7 +75,7 @@ def _call_searching(struct: Any, occluders: Callable[[NDArray[np.float64]], Arra
             failed.append(error)
         return distance
 
-    search = _Search(look_up)
+    search = c.occluder_search(look_up)
     struct.occluder_search = ctypes.cast(search, ctypes.c_void_p).value
     struct.kept.append(search)
     # Handlers of signals run in the main thread: what they raise must not be lost in C. This function may end before the thread.
