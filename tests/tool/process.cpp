@@ -107,8 +107,9 @@ Finished run_process(const std::vector<std::string>& arguments, const std::strin
     _exit(code);
   }
   Finished finished;
-  std::string hung;
+  std::string hung;  // or ended by a signal
   const int status = status_of(process, hung);
+  if (WIFSIGNALED(status)) hung += "ended by signal " + std::to_string(WTERMSIG(status)) + "\n";
   finished.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   if (out_file.empty()) finished.out = content_of(out);
   finished.err = content_of(err) + hung;
@@ -133,12 +134,14 @@ Finished spawn_gnomon(const std::vector<std::string>& arguments, const std::stri
 TemporaryFolder::TemporaryFolder() {
   std::string name = (std::filesystem::temp_directory_path() / "gnomon_test_XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make a temporary folder");
-  path_ = name;
+  // What programs keep beside their output lies within as well.
+  path_ = std::filesystem::path(name) / "folder";
+  std::filesystem::create_directory(path_);
 }
 
 TemporaryFolder::~TemporaryFolder() {
   std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
+  std::filesystem::remove_all(path_.parent_path(), ignored);
 }
 
 std::string TemporaryFolder::write(const std::string& name, const std::string& content) const {

@@ -136,7 +136,7 @@ TEST(ResultsFolder, loses_no_row_to_kills_at_any_moment_and_byte) {
 TEST(ResultsFolder, a_torn_row_within_the_file_is_measured_again) {
   const TemporaryFolder folder;
   const fs::path file = folder.path() / report::kRowsFile;
-  ASSERT_EQ(run_gnomon(small_sweep(folder.path())).exit_code, 0);
+  expect_success(small_sweep(folder.path()));
   std::ifstream in(file);
   std::string text{std::istreambuf_iterator<char>(in), {}};
   const std::size_t second = text.find('\n') + 1;
@@ -144,7 +144,7 @@ TEST(ResultsFolder, a_torn_row_within_the_file_is_measured_again) {
   const Finished shown = run_gnomon({"report", folder.path().string()});
   EXPECT_EQ(shown.exit_code, 0);
   expect_one_line(shown.err, "results.jsonl:2: a row is not whole and was skipped");
-  EXPECT_EQ(run_gnomon(small_sweep(folder.path(), {"--resume"})).exit_code, 0);
+  expect_success(small_sweep(folder.path(), {"--resume"}));
   std::vector<std::string> again = lasting(folder.path()), all = lasting(whole());
   std::sort(again.begin(), again.end());
   std::sort(all.begin(), all.end());

@@ -25,6 +25,12 @@ inline std::vector<std::string> small_sweep(const fs::path& out, const std::vect
 }
 inline constexpr std::size_t kSmallRows = 8;
 
+/// Runs the program, and shows its messages where it fails.
+inline void expect_success(const std::vector<std::string>& arguments) {
+  const Finished finished = run_gnomon(arguments);
+  EXPECT_EQ(finished.exit_code, 0) << finished.err;
+}
+
 inline std::vector<std::string> lasting(const fs::path& folder) {
   std::vector<std::string> lines;
   for (const report::Row& row : report::read_rows(folder)) lines.push_back(report::without_times(row));

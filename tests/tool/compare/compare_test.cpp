@@ -85,7 +85,7 @@ TEST(Compare, measures_local_lights_against_their_own_shadows) {
 
 TEST(Compare, says_the_same_in_every_run_but_for_times) {
   const TemporaryFolder folder;
-  ASSERT_EQ(run_gnomon(small_sweep(folder.path())).exit_code, 0);
+  expect_success(small_sweep(folder.path()));
   EXPECT_EQ(lasting(folder.path()), lasting(whole()));
 }
 
@@ -94,7 +94,7 @@ TEST(Compare, shards_merge_into_the_whole) {
   std::vector<std::string> merge{"merge", "--out", (folder.path() / "merged").string()};
   for (const char* shard : {"1", "2", "3"}) {
     const fs::path out = folder.path() / shard;
-    ASSERT_EQ(run_gnomon(small_sweep(out, {"--shard", std::string(shard) + "/3"})).exit_code, 0);
+    expect_success(small_sweep(out, {"--shard", std::string(shard) + "/3"}));
     EXPECT_FALSE(fs::exists(out / "report.html")) << "a part is no whole";
     merge.push_back(out.string());
   }
@@ -160,7 +160,7 @@ TEST(Compare, frames_that_are_not_timed_have_the_same_errors_and_no_time) {
 
 TEST(Compare, a_finished_sweep_that_is_resumed_measures_nothing) {
   const std::vector<report::Row> before = report::read_rows(whole());
-  EXPECT_EQ(run_gnomon(small_sweep(whole(), {"--resume"})).exit_code, 0);
+  expect_success(small_sweep(whole(), {"--resume"}));
   const std::vector<report::Row> after = report::read_rows(whole());
   ASSERT_EQ(after.size(), before.size());
   for (std::size_t i = 0; i < before.size(); ++i) EXPECT_EQ(to_json_line(after[i]), to_json_line(before[i]));
@@ -215,7 +215,7 @@ TEST(Compare, refuses_a_scene_that_cannot_be_loaded_before_it_measures_another) 
   EXPECT_NE(broken.err.find("broken.gltf: JSON"), std::string::npos) << broken.err;
   std::vector<std::string> limited = small_sweep(out, {"--max-triangles", "1"});
   limited[1] = write_triangle(folder, 0.0f);
-  EXPECT_EQ(run_gnomon(limited).exit_code, 0);
+  expect_success(limited);
   const std::string two = folder.write("two.gltf", [&] {
     std::ifstream in(write_triangle(folder, 0.0f));
     std::string text{std::istreambuf_iterator<char>(in), {}};
@@ -398,7 +398,7 @@ TEST(Compare, runs_under_gnu_parallel) {
   ASSERT_EQ(std::system((command + " ::: 1 2 3 >/dev/null").c_str()), 0);
   std::vector<std::string> merge{"merge", "--out", (folder.path() / "merged").string()};
   for (const char* shard : {"1", "2", "3"}) merge.push_back((folder.path() / shard).string());
-  ASSERT_EQ(run_gnomon(merge).exit_code, 0);
+  expect_success(merge);
   EXPECT_EQ(lasting(folder.path() / "merged"), lasting(whole()));
 }
 
