@@ -13,6 +13,13 @@ vec3 relative_from_object(uint index, vec3 position) {
   return vec3(dot(objects[index].row[0], p), dot(objects[index].row[1], p), dot(objects[index].row[2], p));
 }
 
+// How large the terms are that add up to it: what its rounding is measured by.
+float size_of_terms(uint index, vec3 position) {
+  Object o = objects[index];
+  vec4 p = vec4(abs(position), 1.0);
+  return length(vec3(dot(abs(o.row[0]), p), dot(abs(o.row[1]), p), dot(abs(o.row[2]), p)));
+}
+
 // By the cofactor matrix: right for every affine transform, also where it has no inverse. The sign of the determinant
 // turns mirrored normals the right way. The length may be any but zero.
 vec3 world_normal_from_object(uint index, vec3 normal) {

@@ -11,6 +11,7 @@ layout(location = 0) out vec3 position_out;
 layout(location = 1) out vec3 normal_out;
 layout(location = 2) out vec2 texcoord_out;
 layout(location = 3) flat out uint object_out;
+layout(location = 4) out float terms_out;
 
 void main() {
   vec3 position = relative_from_object(object_index, position_object);
@@ -19,4 +20,5 @@ void main() {
   normal_out = world_normal_from_object(object_index, normal_object);
   texcoord_out = texcoord;
   object_out = object_index;
+  terms_out = size_of_terms(object_index, position_object);
 }

@@ -4,15 +4,19 @@
 // Those are the five axes that can separate a triangle from a square, so no texel is drawn in vain but for rounding.
 // Based on: Hasselgren, Akenine-Moeller, Ohlsson, "Conservative Rasterization", GPU Gems 2, 2005; Gottschalk et al. 1996.
 #include "pass/common/frame.glsl"
+#include "pass/common/scale.glsl"
+#include "pass/lists/light_frames.glsl"
 
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 7) out;
 layout(location = 0) in vec3 at_light[];
 layout(location = 1) in vec3 magnitude[];
 layout(location = 2) in vec2 texcoord[];
+layout(location = 3) in float size[];
 layout(location = 3) uniform int map;
 layout(location = 0) flat out vec3 corner_out[3];
 layout(location = 3) flat out vec2 texcoord_out[3];
+layout(location = 6) flat out vec4 plane_out;  // unit normal across the light; how far the triangle is rounded along it
 
 const float kRounding = 8.0 / 16777216.0;  // of a sum of four products, and of what is made of it
 // Texels. The pixel was listed by a rounded place, and rasterizers snap corners to 1/256.
@@ -43,8 +47,17 @@ void clip_polygon(vec3 line) {
   corners = count;
 }
 
+vec4 rounded_plane() {
+  vec3 side = at_light[1] - at_light[0], other = at_light[2] - at_light[0];
+  float scale = scale_to_one(max(abs(side), abs(other)));
+  vec3 across = cross(scale * side, scale * other);
+  float area = length(across), largest = max(size[0], max(size[1], size[2]));
+  return vec4(area > 0.0 ? across / area : vec3(0.0), light_frames.light.z * largest);
+}
+
 void emit_polygon() {
   if (corners < 3) return;
+  vec4 plane = rounded_plane();
   for (int i = 0; i < min(corners, 7); ++i) {
     // Round about from the first corner: 0, 1, last, 2, last but one, ..
     int at = (i & 1) == 1 ? (i + 1) / 2 : (corners - i / 2) % corners;
@@ -52,6 +65,7 @@ void emit_polygon() {
       corner_out[k] = at_light[k];
       texcoord_out[k] = texcoord[k];
     }
+    plane_out = plane;
     gl_Position = vec4(polygon[at], 0.0, 1.0);
     EmitVertex();
   }

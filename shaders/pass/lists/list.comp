@@ -7,18 +7,17 @@
 #include "library/select_map.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 4) uniform sampler2D height_image;      // of each position over the plane of its triangle
+layout(binding = 4) uniform sampler2D height_image;      // of each position over the plane of its triangle, rounding taken off
 layout(binding = 0, r32ui) uniform uimage2DArray heads;  // first pixel of each texel's list plus 1
 layout(binding = 1, rg32f) writeonly uniform image2D mask_image;
 layout(location = 0) uniform int samples;  // of each pixel: 1 at its centre, more over its facet
 
 // The point as casters are tested against it: lifted off its plane, since coordinates are rounded.
 vec3 lifted(ivec2 pixel, Surface s, vec3 light, int map) {
-  const float kGrazing = 1e-3;  // a ray that only grazes its plane leaves it too slowly: gnomon::trace::kGrazingCosine
   vec3 at = light_from_point(map, s.position);
   float away = local_light() ? length(s.position - frame.light_place.xyz) : 0.0;
-  // Coordinates are relative to the camera, which may be farther off than the scene is wide.
-  float least = max(light_frames.light.y, light_frames.light.z * length(s.position)) + light_frames.light.z * away;
+  // Coordinates are relative to the camera, those of a local light's frame to it.
+  float least = light_frames.light.z * (length(s.position) + away);
   float height = least - texelFetch(height_image, pixel, 0).r;
   float lift = height / max(-dot(s.normal, light), kGrazing);
   if (!local_light()) return vec3(at.xy, at.z - lift);

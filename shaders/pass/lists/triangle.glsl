@@ -7,6 +7,7 @@
 layout(binding = 4) uniform usampler2DArray heads;
 layout(location = 3) uniform int map;
 layout(location = 0) flat in vec3 corner[3];  // across the light, as ListedPixel::at
+layout(location = 6) flat in vec4 plane;      // unit normal; how far the triangle is rounded along it
 
 bool is_there(vec3 weights);
 
@@ -21,8 +22,9 @@ bool shadows(vec3 at) {
   weights /= sum;
   vec3 way = local ? normalize(vec3(at.xy, 1.0)) : vec3(0.0, 0.0, 1.0);
   vec3 depth = vec3(dot(corner[0], way), dot(corner[1], way), dot(corner[2], way));
-  if (!(dot(weights, depth - at.z) < 0.0)) return false;       // not between the light and the point
-  if (local && !(dot(weights, depth) > 0.0)) return false;  // behind the light
+  float rounding = plane.w / max(abs(dot(plane.xyz, way)), kGrazing);
+  if (!(dot(weights, depth - at.z) < -rounding)) return false;  // not between the light and the point
+  if (local && !(dot(weights, depth) > 0.0)) return false;      // behind the light
   return is_there(weights);
 }
 #endif

@@ -44,6 +44,7 @@ void ListSource::begin(FrameJob& frame) {
   casters_.lists.build_uncached({frame.plan, frame.options.prune.without(PruneRule::small_casters)},
                                 frame.camera);
   screen_.targets.add_off_plane();
+  lists_.set_light(light_frames(frame.plan, frame.camera, casters_.buffers.diagonal()));
 }
 
 SurfacePass ListSource::surfaces() const noexcept {
@@ -55,8 +56,7 @@ void ListSource::mask(FrameJob& frame, GLuint) {
   lists_.clear({camera.width, camera.height}, frame.filter.source.samples,
                {frame.block.layer.x, frame.block.layer.y}, std::max(frame.plan.map_count, 1));
   screen_.bind_surfaces();
-  lists_.list(light_frames(frame.plan, camera, casters_.buffers.diagonal()), screen_.targets.off_plane.name(),
-              screen_.targets.mask.name());
+  lists_.list(screen_.targets.off_plane.name(), screen_.targets.mask.name());
 }
 
 void ListSource::update(FrameJob& frame) {

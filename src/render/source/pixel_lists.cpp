@@ -64,7 +64,7 @@ std::uint64_t entries_of(glm::ivec2 frame, int samples) noexcept {
 
 LightFrames light_frames(const ShadowPlan& plan, const Camera& camera, double scene_diagonal) noexcept {
   // Sixteen half units of the last place, as gnomon::trace::Tracer::error_world: points interpolated between
-  // corners, and corners themselves, are rounded to a few.
+  // corners, and corners themselves, are rounded to a few. Of each point and triangle, not of the scene.
   constexpr double kRounding = 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
   LightFrames frames{};
   const bool local = plan.map_count > 0 && plan.map[0].light_world.w != 0.0;
@@ -81,7 +81,7 @@ LightFrames light_frames(const ShadowPlan& plan, const Camera& camera, double sc
     for (std::size_t r = 0; r < 3; ++r)
       frames.row[3 * i + r] = glm::vec4(glm::dvec4(axes[r], -glm::dot(axes[r], origin)));
   }
-  frames.light = glm::vec4(glm::dvec4(local ? 1.0 : 0.0, kRounding * scene_diagonal, kRounding, 0.0));
+  frames.light = glm::vec4(glm::dvec4(local ? 1.0 : 0.0, scene_diagonal, kRounding, 0.0));
   return frames;
 }
 
@@ -136,10 +136,14 @@ void PixelLists::clear(glm::ivec2 frame, int samples, glm::ivec2 map, int maps) 
   glClearTexImage(heads_.name(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &kNoPixel);
 }
 
-void PixelLists::list(const LightFrames& frames, GLuint heights, GLuint mask) noexcept {
+void PixelLists::set_light(const LightFrames& frames) noexcept {
+  glNamedBufferSubData(frames_.name(), 0, sizeof frames, &frames);
+  glBindBufferBase(GL_UNIFORM_BUFFER, kFramesBinding, frames_.name());
+}
+
+void PixelLists::list(GLuint heights, GLuint mask) noexcept {
   glBindTextureUnit(kHeightUnit, heights);
   glBindSampler(kHeightUnit, 0);
-  glNamedBufferSubData(frames_.name(), 0, sizeof frames, &frames);
   glBindBufferBase(GL_UNIFORM_BUFFER, kFramesBinding, frames_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kListedBinding, pixels_.name());
   glBindImageTexture(kHeadsImage, heads_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);

@@ -22,7 +22,7 @@ struct LightFrames {
   std::array<glm::vec4, 3 * kMaxMaps> row;
   glm::vec4 light;
 };
-/// `scene_diagonal`: what the rounding of coordinates is measured by, world units.
+/// `scene_diagonal`: the largest terms that the rounding of coordinates is measured by, world units.
 [[nodiscard]] LightFrames light_frames(const ShadowPlan& plan, const Camera& camera,
                                        double scene_diagonal) noexcept;
 
@@ -39,9 +39,11 @@ class PixelLists {
   /// Makes room for the pixels of a frame with so many samples each, and empty lists for texels of maps of at
   /// most this size.
   void clear(glm::ivec2 frame, int samples, glm::ivec2 map, int maps);
+  /// The frame's light, before its surfaces are drawn.
+  void set_light(const LightFrames& frames) noexcept;
   /// Lists the pixels of the surfaces whose images are bound and whose heights these are, and writes what the
   /// mask is without casters.
-  void list(const LightFrames& frames, GLuint heights, GLuint mask) noexcept;
+  void list(GLuint heights, GLuint mask) noexcept;
   /// Binds what the casters' programs read and write, and their framebuffer.
   void bind(GLuint mask) const noexcept;
   /// Once all casters are drawn: of several samples a pixel, the share that light reaches.

@@ -263,6 +263,28 @@ TEST_F(Irregular, slivers_specks_and_huge_triangles_are_exact_under_every_light)
   EXPECT_GT(shadow, 20'000u);
 }
 
+TEST_F(Irregular, a_corner_far_away_takes_no_shadow_from_what_is_near) {
+  const Camera camera = camera_on_box(kSize, kSize);
+  const std::vector<Light> lights{DirectionalLight{kSlant}, PointLight{{0.5, 6.0, 1.0}, 60.0}};
+  std::vector<std::size_t> shadow;
+  for (const double far : {0.0, 1e6, 1e9}) {
+    for (const Light& light : lights) {
+      SCOPED_TRACE(far);
+      Scene scene = box_on_ground();
+      // A step that is lower than what coordinates of the far corner are rounded by.
+      add_quad(scene, {1.5f, 0.02f, 3}, {1, 0, 0}, {0, 0, -2});
+      if (far > 0.0) add_quad(scene, {far, 0, 0}, {1, 0, 0}, {0, 0, -1});
+      Stage stage(std::move(scene), camera, light);
+      const Judged judged = stage.judged(stage.plan(plan_options("none", 1, 128)));
+      EXPECT_EQ(judged.wrong, 0u);
+      shadow.push_back(judged.shadow);
+    }
+  }
+  for (std::size_t i = 0; i < shadow.size(); ++i)
+    EXPECT_NEAR(static_cast<double>(shadow[i]), static_cast<double>(shadow[i % lights.size()]), 3.0) << i;
+  EXPECT_GT(shadow[0] + shadow[1], 600u);
+}
+
 TEST_F(Irregular, alpha_masks_are_cut_where_their_image_says_at_every_wrap) {
   for (const TextureWrap wrap :
        {TextureWrap::repeat, TextureWrap::mirrored_repeat, TextureWrap::clamp_to_edge}) {
