@@ -106,7 +106,7 @@ class Renderer {
   bool move_instance(std::size_t instance, const Instance& to);
   /// Places instances and vertices as posed (pose()), by move_instance() where they differ from the last
   /// pose. Plans must be given the new bounds. The next frames are those of a renderer of the posed scene
-  /// (apply_pose()). They have the same bits as long as the scene's diagonal passes no power of two. False,
+  /// (apply_pose()). They have the same bits as long as the scene's extent passes no power of two. False,
   /// and nothing moved, where the pose names instances or vertices that the scene does not have.
   bool apply_pose(const Pose& pose);
   /// Channels "r", "g", "b" of the last frame of many lights: what they reflect, without sky and air, linear.

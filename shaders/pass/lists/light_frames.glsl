@@ -3,7 +3,7 @@
 #define GNOMON_LISTS_LIGHT_FRAMES_GLSL
 layout(std140, binding = 3) uniform LightFrames {
   vec4 row[3 * GNOMON_MAX_MAPS];  // per map: coordinates of a point relative to the camera
-  vec4 light;  // 1: local; the scene's diagonal; how far a coordinate is rounded, per its size
+  vec4 light;  // 1: local; the scene's extent; how far a coordinate is rounded, per its size
 } light_frames;
 
 // A ray that only grazes a plane leaves it too slowly: gnomon::trace::kGrazingCosine.

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 #include "gnomon/render/error.hpp"
 
@@ -45,6 +46,49 @@ Texture upload(const Image& image) {
   return texture;
 }
 
+/// A value that half of the weights lie at or below. Values and weights, at least one.
+double weighted_median(std::vector<std::pair<double, double>> values) {
+  std::sort(values.begin(), values.end());
+  double all = 0.0, below = 0.0;
+  for (const auto& [value, weight] : values) all += weight;
+  for (const auto& [value, weight] : values) {
+    below += weight;
+    if (below >= 0.5 * all) return value;
+  }
+  return values.back().first;
+}
+
+/// Diagonal of the box round all boxes, but at most eight times as far as half of their surface lies from its
+/// middle: an object that was left at the origin of a scene far from it does not count.
+double extent_of(std::span<const Box> boxes) {
+  constexpr double kMost = 8.0;
+  Box all;
+  std::vector<const Box*> filled;
+  for (const Box& box : boxes) {
+    if (box.empty()) continue;
+    all.extend(box);
+    filled.push_back(&box);
+  }
+  if (filled.empty()) return 0.0;
+  const auto median = [&filled](const auto& value) {
+    std::vector<std::pair<double, double>> weighted;
+    for (const Box* box : filled) {
+      const glm::dvec3 side = box->max - box->min;
+      weighted.emplace_back(value(*box), side.x * side.y + side.y * side.z + side.z * side.x);
+    }
+    return weighted_median(std::move(weighted));
+  };
+  glm::dvec3 middle;
+  for (int axis = 0; axis < 3; ++axis)
+    middle[axis] =
+        median([axis](const Box& box) { return box.min[axis] + 0.5 * (box.max[axis] - box.min[axis]); });
+  const double reach = median([&middle](const Box& box) {
+    return glm::length(glm::max(glm::abs(box.min - middle), glm::abs(box.max - middle)));
+  });
+  const double diagonal = glm::length(all.max - all.min);
+  return reach > 0.0 ? std::min(diagonal, kMost * reach) : diagonal;
+}
+
 }  // namespace
 
 SceneBuffers::SceneBuffers(const Scene& scene)
@@ -70,14 +114,10 @@ SceneBuffers::SceneBuffers(const Scene& scene)
   upload_images(scene);
   make_batches();
   for (Placement& placement : placement_) placement.buffer = filled_buffer(objects_);
-  Box all;
-  for (const Box& box : boxes_) {
-    if (!box.empty()) all.extend(box);
-  }
-  diagonal_ = all.empty() ? 0.0 : glm::length(all.max - all.min);
-  constexpr int kStepsPerDiagonal = 2;  // as a power of two
-  if (diagonal_ > 0.0 && std::isfinite(diagonal_))
-    origin_step_ = std::ldexp(1.0, std::ilogb(diagonal_) - kStepsPerDiagonal);
+  extent_ = extent_of(boxes_);
+  constexpr int kStepsPerExtent = 2;  // as a power of two
+  if (extent_ > 0.0 && std::isfinite(extent_))
+    origin_step_ = std::ldexp(1.0, std::ilogb(extent_) - kStepsPerExtent);
 }
 
 void SceneBuffers::move(std::size_t instance, const Instance& to) {

@@ -53,11 +53,12 @@ class SceneBuffers {
   [[nodiscard]] std::uint64_t changes() const noexcept { return changes_; }
   /// Takes those for the next draws.
   void use(Placed placed) const noexcept;
-  /// The maps' origin follows the camera in steps of this length, a power of two: 1/4 of the scene's diagonal
+  /// The maps' origin follows the camera in steps of this length, a power of two: 1/4 of the scene's extent
   /// or less. Each step draws what is kept again; longer ones round positions near the camera more coarsely.
   [[nodiscard]] double origin_step() const noexcept { return origin_step_; }
-  /// Of the box round all instances, world units; 0 for an empty scene.
-  [[nodiscard]] double diagonal() const noexcept { return diagonal_; }
+  /// Diagonal of the box round all instances, or round most of them where few lie far off; world units; 0 for
+  /// an empty scene.
+  [[nodiscard]] double extent() const noexcept { return extent_; }
 
   [[nodiscard]] std::span<const std::uint32_t> order() const noexcept { return order_; }
   [[nodiscard]] std::span<const Batch> batches() const noexcept { return batches_; }
@@ -124,7 +125,7 @@ class SceneBuffers {
     std::optional<glm::dvec3> origin_world;
   };
   std::array<Placement, 2> placement_;  ///< by Placed
-  double origin_step_ = 1.0, diagonal_ = 0.0;
+  double origin_step_ = 1.0, extent_ = 0.0;
   std::vector<Texture> textures_;
   std::vector<Sampler> samplers_;  ///< by wrap_u * 3 + wrap_v
   Texture white_;

@@ -44,7 +44,7 @@ void ListSource::begin(FrameJob& frame) {
   casters_.lists.build_uncached({frame.plan, frame.options.prune.without(PruneRule::small_casters)},
                                 frame.camera);
   screen_.targets.add_off_plane();
-  lists_.set_light(light_frames(frame.plan, frame.camera, casters_.buffers.diagonal()));
+  lists_.set_light(light_frames(frame.plan, frame.camera, casters_.buffers.extent()));
 }
 
 SurfacePass ListSource::surfaces() const noexcept {

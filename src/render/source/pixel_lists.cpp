@@ -62,7 +62,7 @@ std::uint64_t entries_of(glm::ivec2 frame, int samples) noexcept {
 
 }  // namespace
 
-LightFrames light_frames(const ShadowPlan& plan, const Camera& camera, double scene_diagonal) noexcept {
+LightFrames light_frames(const ShadowPlan& plan, const Camera& camera, double scene_extent) noexcept {
   // Sixteen half units of the last place, as gnomon::trace::Tracer::error_world: points interpolated between
   // corners, and corners themselves, are rounded to a few. Of each point and triangle, not of the scene.
   constexpr double kRounding = 8.0 * static_cast<double>(std::numeric_limits<float>::epsilon());
@@ -81,7 +81,7 @@ LightFrames light_frames(const ShadowPlan& plan, const Camera& camera, double sc
     for (std::size_t r = 0; r < 3; ++r)
       frames.row[3 * i + r] = glm::vec4(glm::dvec4(axes[r], -glm::dot(axes[r], origin)));
   }
-  frames.light = glm::vec4(glm::dvec4(local ? 1.0 : 0.0, scene_diagonal, kRounding, 0.0));
+  frames.light = glm::vec4(glm::dvec4(local ? 1.0 : 0.0, scene_extent, kRounding, 0.0));
   return frames;
 }
 

@@ -22,9 +22,9 @@ struct LightFrames {
   std::array<glm::vec4, 3 * kMaxMaps> row;
   glm::vec4 light;
 };
-/// `scene_diagonal`: the largest terms that the rounding of coordinates is measured by, world units.
+/// `scene_extent`: the largest terms that the rounding of coordinates is measured by, world units.
 [[nodiscard]] LightFrames light_frames(const ShadowPlan& plan, const Camera& camera,
-                                       double scene_diagonal) noexcept;
+                                       double scene_extent) noexcept;
 
 /// Programs and memory of the lists. One list per texel, linked through one entry per sample: no list
 /// overflows.

@@ -368,5 +368,23 @@ TEST(Mask, does_not_change_a_thousand_kilometres_from_the_origin) {
   EXPECT_LE(different, a.pixels() / 500);
 }
 
+TEST(Mask, does_not_change_where_one_object_of_a_far_scene_was_left_at_the_origin) {
+  const glm::dvec3 far_away{9'437'184.0, 0.0, -9'437'184.0};  // powers of two: the moved scene rounds nothing
+  Scene scene = box_on_ground();
+  for (Instance& instance : scene.instances) {
+    instance.world_from_object[3] += glm::dvec4(far_away, 0.0);
+    instance.bounds_world.min += far_away;
+    instance.bounds_world.max += far_away;
+  }
+  Scene with_another = scene;
+  add_quad(with_another, {0, 0, 0}, {1, 0, 0}, {0, 0, -1});
+  Camera camera = camera_on_box(kSize, kSize);
+  camera.position += far_away;
+  const Frame alone = draw_scene(scene, camera, kSlant), beside = draw_scene(with_another, camera, kSlant);
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < alone.pixels(); ++i) different += alone.lit(i) != beside.lit(i) ? 1 : 0;
+  EXPECT_LE(different, alone.pixels() / 500);
+}
+
 }  // namespace
 }  // namespace gnomon::render

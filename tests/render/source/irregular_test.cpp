@@ -267,13 +267,14 @@ TEST_F(Irregular, a_corner_far_away_takes_no_shadow_from_what_is_near) {
   const Camera camera = camera_on_box(kSize, kSize);
   const std::vector<Light> lights{DirectionalLight{kSlant}, PointLight{{0.5, 6.0, 1.0}, 60.0}};
   std::vector<std::size_t> shadow;
-  for (const double far : {0.0, 1e6, 1e9}) {
+  for (const float far : {0.0f, 1e6f, 1e9f}) {
     for (const Light& light : lights) {
       SCOPED_TRACE(far);
       Scene scene = box_on_ground();
-      // A step that is lower than what coordinates of the far corner are rounded by.
-      add_quad(scene, {1.5f, 0.02f, 3}, {1, 0, 0}, {0, 0, -2});
-      if (far > 0.0) add_quad(scene, {far, 0, 0}, {1, 0, 0}, {0, 0, -1});
+      // A step that is lower than what coordinates of the far corner, in the same mesh, are rounded by.
+      std::vector<glm::vec3> step = box_triangles({1.5f, 0, 1}, {2.5f, 0.02f, 3});
+      if (far > 0.0f) step.insert(step.end(), {{far, 0, 0}, {far, 1, 0}, {far, 0, 1}});
+      add_mesh(scene, step);
       Stage stage(std::move(scene), camera, light);
       const Judged judged = stage.judged(stage.plan(plan_options("none", 1, 128)));
       EXPECT_EQ(judged.wrong, 0u);
