@@ -6,6 +6,9 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <numbers>
+#include <utility>
+
+#include "base/weighted_median.hpp"
 
 namespace gnomon::detail {
 namespace {
@@ -97,18 +100,11 @@ bool add_pieces(const Scene& scene, const Instance& instance, std::uint32_t stri
 // The middle of the middles, axis by axis: where most pieces are, however far some strayed.
 glm::dvec3 middle_of(const std::vector<Piece>& pieces, const std::vector<double>& weights) {
   glm::dvec3 middle(0.0);
-  double whole = 0.0;
-  for (const double weight : weights) whole += weight;
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<std::pair<double, double>> at;
     for (std::size_t i = 0; i < pieces.size(); ++i)
       at.emplace_back((pieces[i].bounds.min[axis] + pieces[i].bounds.max[axis]) * 0.5, weights[i]);
-    std::sort(at.begin(), at.end());
-    double below = 0.0;
-    for (const auto& [value, weight] : at) {
-      middle[axis] = value;
-      if ((below += weight) >= 0.5 * whole) break;
-    }
+    middle[axis] = weighted_median(std::move(at));
   }
   return middle;
 }

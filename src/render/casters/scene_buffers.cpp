@@ -10,6 +10,7 @@
 #include <tuple>
 #include <utility>
 
+#include "base/weighted_median.hpp"
 #include "gnomon/render/error.hpp"
 
 namespace gnomon::render {
@@ -46,20 +47,8 @@ Texture upload(const Image& image) {
   return texture;
 }
 
-/// A value that half of the weights lie at or below. Values and weights, at least one.
-double weighted_median(std::vector<std::pair<double, double>> values) {
-  std::sort(values.begin(), values.end());
-  double all = 0.0, below = 0.0;
-  for (const auto& [value, weight] : values) all += weight;
-  for (const auto& [value, weight] : values) {
-    below += weight;
-    if (below >= 0.5 * all) return value;
-  }
-  return values.back().first;
-}
-
-/// Diagonal of the box round all boxes, but at most eight times as far as half of their surface lies from its
-/// middle: an object that was left at the origin of a scene far from it does not count.
+/// Diagonal of the box round all boxes, at most eight times the radius that holds half of their surface: an
+/// object that was left at the origin of a scene far from it does not count.
 double extent_of(std::span<const Box> boxes) {
   constexpr double kMost = 8.0;
   Box all;
@@ -82,11 +71,11 @@ double extent_of(std::span<const Box> boxes) {
   for (int axis = 0; axis < 3; ++axis)
     middle[axis] =
         median([axis](const Box& box) { return box.min[axis] + 0.5 * (box.max[axis] - box.min[axis]); });
-  const double reach = median([&middle](const Box& box) {
+  const double radius = median([&middle](const Box& box) {
     return glm::length(glm::max(glm::abs(box.min - middle), glm::abs(box.max - middle)));
   });
   const double diagonal = glm::length(all.max - all.min);
-  return reach > 0.0 ? std::min(diagonal, kMost * reach) : diagonal;
+  return radius > 0.0 ? std::min(diagonal, kMost * radius) : diagonal;
 }
 
 }  // namespace
