@@ -76,6 +76,18 @@ Scene box_on_ground() {
   return scene;
 }
 
+Instance shifted(const Instance& from, const glm::dvec3& by) {
+  Instance to = from;
+  to.world_from_object[3] += glm::dvec4(by, 0.0);
+  to.bounds_world = {from.bounds_world.min + by, from.bounds_world.max + by};
+  return to;
+}
+
+Scene shifted(Scene scene, const glm::dvec3& by) {
+  for (Instance& instance : scene.instances) instance = shifted(instance, by);
+  return scene;
+}
+
 Scene boxes_on_ground() {
   Scene scene = box_on_ground();
   for (int i = 0; i < 12; ++i) {

@@ -29,6 +29,10 @@ inline constexpr glm::vec3 kBoxMin{-1.5f, 0.0f, -1.0f}, kBoxMax{1.0f, 2.5f, 1.5f
 /// The same with twelve boxes more.
 [[nodiscard]] Scene boxes_on_ground();
 
+/// An instance, and all instances of a scene, somewhere else.
+[[nodiscard]] Instance shifted(const Instance& from, const glm::dvec3& by);
+[[nodiscard]] Scene shifted(Scene scene, const glm::dvec3& by);
+
 /// Does the ray from `point` towards the light meet the box? Never one that was shrunk to nothing.
 [[nodiscard]] bool hits_box(const glm::dvec3& point, const glm::dvec3& to_light, const glm::dvec3& min,
                             const glm::dvec3& max);

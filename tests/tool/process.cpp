@@ -107,12 +107,12 @@ Finished run_process(const std::vector<std::string>& arguments, const std::strin
     _exit(code);
   }
   Finished finished;
-  std::string hung;  // or ended by a signal
-  const int status = status_of(process, hung);
-  if (WIFSIGNALED(status)) hung += "ended by signal " + std::to_string(WTERMSIG(status)) + "\n";
+  std::string trouble;
+  const int status = status_of(process, trouble);
+  if (WIFSIGNALED(status)) trouble += "ended by signal " + std::to_string(WTERMSIG(status)) + "\n";
   finished.exit_code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
   if (out_file.empty()) finished.out = content_of(out);
-  finished.err = content_of(err) + hung;
+  finished.err = content_of(err) + trouble;
   return finished;
 }
 

@@ -50,14 +50,6 @@ struct Judged {
   std::size_t coloured = 0;
 };
 
-/// An instance somewhere else.
-inline Instance shifted(const Instance& from, const glm::dvec3& by) {
-  Instance to = from;
-  to.world_from_object[3] += glm::dvec4(by, 0.0);
-  to.bounds_world = {from.bounds_world.min + by, from.bounds_world.max + by};
-  return to;
-}
-
 /// Boxes of both parts, which plans take as casters.
 inline std::vector<Box> all_boxes(const Scene& opaque, const Scene& panes) {
   std::vector<Box> boxes = boxes_of(opaque);
