@@ -106,8 +106,9 @@ class Renderer {
   bool move_instance(std::size_t instance, const Instance& to);
   /// Places instances and vertices as posed (pose()), by move_instance() where they differ from the last
   /// pose. Plans must be given the new bounds. The next frames are those of a renderer of the posed scene
-  /// (apply_pose()). They have the same bits as long as the scene's extent passes no power of two. False,
-  /// and nothing moved, where the pose names instances or vertices that the scene does not have.
+  /// (apply_pose()). They have the same bits as long as the diagonal round most of the scene passes no power
+  /// of two. False, and nothing moved, where the pose names instances or vertices that the scene does not
+  /// have.
   bool apply_pose(const Pose& pose);
   /// Channels "r", "g", "b" of the last frame of many lights: what they reflect, without sky and air, linear.
   [[nodiscard]] FloatImage light_sum() const;

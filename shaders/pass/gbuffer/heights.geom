@@ -1,5 +1,5 @@
 #version 450 core
-// Tells each pixel the plane of its triangle, and how far that is rounded.
+// Passes each pixel the plane of its triangle, and how far that is rounded.
 #include "pass/common/scale.glsl"
 #include "pass/lists/light_frames.glsl"
 

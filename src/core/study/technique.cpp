@@ -17,9 +17,8 @@ constexpr double kTrade = 0.8;
 
 /// One plan, for all filters of one extent.
 struct Planned {
-  Technique technique;  ///< its filter is the first of them
-  std::array<double, kMaxKernels>
-      wrong;  ///< share of the pixels, expected with each of the kernels they have
+  Technique technique;                    ///< its filter is the first of them
+  std::array<double, kMaxKernels> wrong;  ///< expected share of the pixels, by kernel
   PlanWork work;
 };
 

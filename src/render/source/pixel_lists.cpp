@@ -144,7 +144,6 @@ void PixelLists::set_light(const LightFrames& frames) noexcept {
 void PixelLists::list(GLuint heights, GLuint mask) noexcept {
   glBindTextureUnit(kHeightUnit, heights);
   glBindSampler(kHeightUnit, 0);
-  glBindBufferBase(GL_UNIFORM_BUFFER, kFramesBinding, frames_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kListedBinding, pixels_.name());
   glBindImageTexture(kHeadsImage, heads_.name(), 0, GL_TRUE, 0, GL_READ_WRITE, GL_R32UI);
   glBindImageTexture(kMaskImage, mask, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
@@ -156,7 +155,6 @@ void PixelLists::list(GLuint heights, GLuint mask) noexcept {
 }
 
 void PixelLists::bind(GLuint mask) const noexcept {
-  glBindBufferBase(GL_UNIFORM_BUFFER, kFramesBinding, frames_.name());
   glBindBufferBase(GL_SHADER_STORAGE_BUFFER, kListedBinding, pixels_.name());
   glBindImageTexture(kMaskImage, mask, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RG32F);
   glBindTextureUnit(kHeadsUnit, heads_.name());

@@ -39,7 +39,7 @@ class PixelLists {
   /// Makes room for the pixels of a frame with so many samples each, and empty lists for texels of maps of at
   /// most this size.
   void clear(glm::ivec2 frame, int samples, glm::ivec2 map, int maps);
-  /// The frame's light, before its surfaces are drawn.
+  /// Binds the frame's light for all of its passes, before its surfaces are drawn.
   void set_light(const LightFrames& frames) noexcept;
   /// Lists the pixels of the surfaces whose images are bound and whose heights these are, and writes what the
   /// mask is without casters.
