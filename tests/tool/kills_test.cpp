@@ -124,24 +124,29 @@ void expect_whole_after_kills(const std::function<Arguments(const fs::path&)>& c
   ASSERT_GT(files, 0);
   std::mt19937 random(11);
   int kills = 0, aside = 0;
+  const auto kill_at_write = [&](const fs::path& out, int writes, int signal) {
+    kills += kill_while_writing(out, writes, signal, command(out)) ? 1 : 0;
+    const Left left = expect_whole_files(out);
+    aside += left.aside;
+    if (out == first) {
+      EXPECT_EQ(left.whole, files);
+    }
+  };
   for (const int signal : {SIGKILL, SIGTERM}) {
     for (const bool over : {false, true}) {
       const fs::path out = over ? first : folder.path() / std::to_string(signal);
       if (!over) prepare(out);
-      for (const int writes : {1, 1 + static_cast<int>(random() % 4)}) {
-        kills += kill_while_writing(out, writes, signal, command(out)) ? 1 : 0;
-        const Left left = expect_whole_files(out);
-        aside += left.aside;
-        if (over) {
-          EXPECT_EQ(left.whole, files);
-        }
-      }
+      for (const int writes : {1, 1 + static_cast<int>(random() % 4)}) kill_at_write(out, writes, signal);
       kills += kill_after(all_of_it * static_cast<int>(random() % 100) / 100, signal, command(out)) ? 1 : 0;
       expect_whole_files(out);
     }
   }
-  // At least those at the first write.
-  EXPECT_GE(kills, 4);
+  // On a busy machine a kill comes after the write that it was meant for.
+  constexpr int kKills = 4;
+  const auto latest = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while ((kills < kKills || aside == 0) && std::chrono::steady_clock::now() < latest)
+    kill_at_write(first, 1, SIGKILL);
+  EXPECT_GE(kills, kKills);
   EXPECT_GT(aside, 0) << "no kill fell into a write";
   EXPECT_EQ(spawn_gnomon(command(first)).exit_code, 0);
   EXPECT_EQ(expect_whole_files(first).whole, files);
