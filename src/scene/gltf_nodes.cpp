@@ -38,9 +38,8 @@ std::vector<int> find_parents(const tinygltf::Model& model) {
 }
 
 // Depth first without recursion; with one parent per node, a node that no root reaches is in a loop.
-void place(const tinygltf::Model& model, std::vector<int> open, std::uint32_t max_depth,
-           std::vector<bool>& placed, std::vector<glm::dmat4>& world_from_node) {
-  std::vector<std::uint32_t> depth(model.nodes.size(), 0);
+void place(const tinygltf::Model& model, std::vector<int> open, std::vector<bool>& placed,
+           std::vector<glm::dmat4>& world_from_node) {
   for (const int root : open) {
     world_from_node[static_cast<std::size_t>(root)] =
         local_transform(model.nodes[static_cast<std::size_t>(root)]);
@@ -50,13 +49,9 @@ void place(const tinygltf::Model& model, std::vector<int> open, std::uint32_t ma
     open.pop_back();
     placed[n] = true;
     if (!is_finite(world_from_node[n])) throw Refusal(element("nodes", n), "its transform is not finite");
-    if (depth[n] > max_depth) {
-      throw Refusal(element("nodes", n), "lies more than " + std::to_string(max_depth) + " nodes deep");
-    }
     for (const int child : model.nodes[n].children) {
       const auto c = static_cast<std::size_t>(child);
       world_from_node[c] = world_from_node[n] * local_transform(model.nodes[c]);
-      depth[c] = depth[n] + 1;
       open.push_back(child);
     }
   }
@@ -102,7 +97,7 @@ PlacedNode placed(const tinygltf::Node& node) {
 }
 
 NodeTree build_node_tree(const tinygltf::Model& model, const std::vector<bool>& hidden,
-                         const LoadLimits& limits, std::vector<std::string>& warnings) {
+                         std::vector<std::string>& warnings) {
   const std::vector<int> parents = find_parents(model);
   std::vector<int> roots;
   for (std::size_t n = 0; n < parents.size(); ++n) {
@@ -111,7 +106,7 @@ NodeTree build_node_tree(const tinygltf::Model& model, const std::vector<bool>& 
   NodeTree tree;
   tree.world_from_node.assign(model.nodes.size(), glm::dmat4(1.0));
   std::vector<bool> placed(model.nodes.size(), false);
-  place(model, roots, limits.node_depth, placed, tree.world_from_node);
+  place(model, roots, placed, tree.world_from_node);
   for (std::size_t n = 0; n < placed.size(); ++n) {
     if (!placed[n]) throw Refusal(element("nodes", n), "is its own ancestor");
   }

@@ -27,9 +27,9 @@ struct PlacedNode {
 /// Parent from node.
 [[nodiscard]] glm::dmat4 local_transform(const tinygltf::Node& node);
 
-/// `hidden`: by node, or empty. Throws Refusal for loops, for nodes with two parents, for trees too deep and
+/// `hidden`: by node, or empty. Throws Refusal for loops, for nodes with two parents and for
 /// transforms that overflow.
 [[nodiscard]] NodeTree build_node_tree(const tinygltf::Model& model, const std::vector<bool>& hidden,
-                                       const LoadLimits& limits, std::vector<std::string>& warnings);
+                                       std::vector<std::string>& warnings);
 
 }  // namespace gnomon::detail

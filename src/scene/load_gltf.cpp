@@ -250,7 +250,7 @@ Scene load_gltf_bytes(std::span<const std::uint8_t> bytes, const std::string& sc
     scene.name = scene_name;
     SceneFolder files(folder, limits.file_bytes, limits.total_bytes);
     const Document document = open_document(bytes, files, limits, scene.warnings);
-    const NodeTree tree = build_node_tree(document.model, document.placement.hidden, limits, scene.warnings);
+    const NodeTree tree = build_node_tree(document.model, document.placement.hidden, scene.warnings);
     check_size(document, tree, limits);
     NodePlacer placer(document, tree, limits, scene);
     for (const int node : tree.shown) placer.place(node);

@@ -26,7 +26,6 @@ struct LoadLimits {
   std::uint64_t vertices = 40'000'000;     ///< stored
   std::uint64_t pixels = 1ull << 28;       ///< over all images
   std::uint32_t nodes = 1'000'000;         ///< visited, instances included
-  std::uint32_t node_depth = 256;          ///< parents above a node
   /// Keys, morph targets and joint weights of animations, numbers of four bytes.
   std::uint64_t animation_numbers = 1ull << 26;
 };
