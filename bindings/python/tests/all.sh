@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Does the package work as pip installs it? Into an environment of its own, with all tests, the examples of its manual, the guides
 # of docs/python_guides.md, and the sample of Panda3D.
-#   all.sh WORK_DIR CASES FRAMES PROGRAM, CASES of c_dump_cases, FRAMES of c_dump_frames, PROGRAM: gnomon
+#   all.sh WORK_DIR CASES FRAMES PROGRAM [MORE], CASES and MORE of c_dump_cases, FRAMES of c_dump_frames, PROGRAM: gnomon
+# Without MORE, pages and lights of the cases are not compared.
 set -euo pipefail
 here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 work="$(readlink -m "$1")"
-export CASES="$(readlink -f "$2")" FRAMES="$(readlink -f "$3")" GNOMON_PROGRAM="$(readlink -f "$4")"
+export CASES="$(readlink -f "$2")" FRAMES="$(readlink -f "$3")" GNOMON_PROGRAM="$(readlink -f "$4")" MORE="${5:+$(readlink -f "$5")}"
 python3 -B "$here/../../layout.py" --check
 rm -rf "$work"
 # Where there is a compiler cache, the library is compiled once.
@@ -22,6 +23,8 @@ camera: gnomon.Camera = gnomon.perspective(fov_y=1.0)
 plan = gnomon.plan(camera, gnomon.directional((0, -1, 0)), [[0.0] * 6], None)
 p95: float = gnomon.measure(plan, camera, None).p95
 width: int = plan.maps[0].width + camera.width
+texels: float = gnomon.measure(gnomon.pages(camera, gnomon.directional((0, -1, 0)), None, None, points=None), camera, None).texels_per_pixel
+kind: str = gnomon.compare(plan.maps[0], plan.maps[0], plan.clip_space).kind
 sun: gnomon.HeldSun = gnomon.hold_sun(camera, (0, 0, 0), (0, -1, 0), (0, 0, 0, 1, 1, 1), points=None)
 share: float = gnomon.expected_error(plan, camera, [[1.0]], [[9.0]], occluders=lambda points: points[:, 1]).share'
 # Panda3D with the matrices of gnomon: at most half of the misclassified pixels.

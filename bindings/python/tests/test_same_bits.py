@@ -57,6 +57,13 @@ def test_plans_and_errors_have_the_bits_of_the_native_library():
     assert plans > 100 and maps > 200
 
 
+def test_every_call_of_the_header_is_made():
+    folder = os.path.dirname(gnomon.__file__)
+    text = "".join(open(os.path.join(folder, name), encoding="utf-8").read() for name in os.listdir(folder) if name.endswith(".py") and name != "_layout.py")
+    # make() calls those that fill in defaults; len() of a set needs no call.
+    assert [name for name in c.calls if name not in text and not name.endswith("_default")] == ["gnomon_caster_set_count"]
+
+
 def test_arrays_are_read_where_they_lie_and_results_are_views():
     boxes = np.array([[-40, -1, -200, 40, 0, 20], [-4, 0, -30, 4, 6, -26.0]])
     given = gnomon._records.Input(gnomon.perspective(fov_y=1.0), boxes, boxes)

@@ -16,19 +16,22 @@ True
 1024
 """
 from ._call import GnomonError, lib, strings
-from ._frames import DepthTracker, HeldSun, hold_sun, jitter, jitter_texels
-from ._many import Atlas, Clusters, LightMaps, LightPlan, PagePlan, clusters, lights, pack_atlas, pages
+from ._frames import DepthTracker, HeldSun, Reuse, compare, hold_sun, jitter, jitter_texels, rebased, rectangle_planes
+from ._many import Atlas, Clusters, LightHistory, LightMaps, LightPlan, camera_round, clusters, lights, pack_atlas
+from ._pages import DEPTH_EDGE, SHADOW_CHANGED, SHADOW_EDGE, PagePlan, PagePool, pages
 from ._pictures import WrongPixels, expected_error, shadow_edge_points
-from ._plans import EngineBias, cull, engine_bias, measure, measure_points, plan, select, shader_block
+from ._plans import EngineBias, cull, cull_planes, engine_bias, measure, measure_points, plan, plan_views, select, shader_block
 from ._program import Masks, judge, masks
-from ._records import (Camera, CasterSet, History, Light, Map, Omission, Plan, Stats, VisibleDepths, camera_from,
-                       directional, orthographic, perspective, point, spot)
+from ._records import (Camera, CasterSet, Event, History, Light, Map, Omission, PageStats, Plan, Stats, VisibleDepths, camera_from,
+                       directional, orthographic, perspective, point, spot, texture_from_clip)
 
-__all__ = ["Atlas", "Camera", "CasterSet", "Clusters", "DepthTracker", "EngineBias", "GnomonError", "HeldSun", "History", "Light",
-           "LightMaps", "LightPlan", "Map", "Masks", "Omission", "PagePlan", "Plan", "Stats", "VisibleDepths", "WrongPixels",
-           "camera_from", "clusters", "cull", "directional", "engine_bias", "expected_error", "hold_sun", "jitter", "jitter_texels", "judge", "lights",
-           "masks", "measure", "measure_points", "names", "orthographic", "pack_atlas", "pages", "perspective", "plan", "point",
-           "select", "shader_block", "shadow_edge_points", "spot", "version"]
+__all__ = ["Atlas", "Camera", "CasterSet", "Clusters", "DEPTH_EDGE", "DepthTracker", "EngineBias", "Event", "GnomonError",
+           "HeldSun", "History", "Light", "LightHistory", "LightMaps", "LightPlan", "Map", "Masks", "Omission", "PagePlan",
+           "PagePool", "PageStats", "Plan", "Reuse", "SHADOW_CHANGED", "SHADOW_EDGE", "Stats", "VisibleDepths", "WrongPixels",
+           "camera_from", "camera_round", "clusters", "compare", "cull", "cull_planes", "directional", "engine_bias",
+           "expected_error", "hold_sun", "jitter", "jitter_texels", "judge", "lights", "masks", "measure", "measure_points",
+           "names", "orthographic", "pack_atlas", "pages", "perspective", "plan", "plan_views", "point", "rebased",
+           "rectangle_planes", "select", "shader_block", "shadow_edge_points", "spot", "texture_from_clip", "version"]
 
 
 def version() -> str:

@@ -42,9 +42,11 @@ def call(name: str, *arguments: Any) -> int:
     for one, (parameter, kind) in zip(arguments, c.calls[name][1]):
         if isinstance(one, (ctypes.Structure, ctypes.Array)):
             one = ctypes.byref(one)
-        elif kind is ctypes.c_int32 and not -(2**31) <= one < 2**31:
-            # ctypes would keep its lower bits.
-            raise GnomonError(parameter, "%s: expected a whole number of 32 bits" % parameter)
+        elif kind in (ctypes.c_int32, ctypes.c_int64):
+            bits = 8 * ctypes.sizeof(kind)
+            if not -(2 ** (bits - 1)) <= one < 2 ** (bits - 1):
+                # ctypes would keep its lower bits.
+                raise GnomonError(parameter, "%s: expected a whole number of %d bits" % (parameter, bits))
         passed.append(one)
     status = getattr(lib, name)(*passed, ctypes.byref(field))
     if status == c.OUT_OF_MEMORY:
@@ -111,6 +113,24 @@ def set_options(struct: Any, options: dict[str, Any]) -> Any:
     return struct
 
 
+def options_of(struct: Any) -> dict[str, Any]:
+    """The reverse: plan options that set_options makes the same struct of."""
+    found: dict[str, Any] = {}
+    for name, kind in fields_of(struct).items():
+        value = getattr(struct, name)
+        if name == "prune":
+            found[name] = [rule for i, rule in enumerate(strings("prune_rules")) if value >> i & 1]
+        elif name == "clip_space":
+            found[name] = {flag: bool(getattr(value, flag)) for flag in fields_of(value) if flag != "reserved"}
+        elif name == "split_range":
+            found[name] = _RANGES[value]
+        elif hasattr(kind, "_length_"):
+            found[name] = np.ctypeslib.as_array(value).tolist()
+        elif name not in ("size", "reserved"):
+            found[name] = name_of(struct, name, value)
+    return found
+
+
 def find(which: int, name: str, field: str) -> int:
     """Index of a name in a list."""
     index = lib.gnomon_find(which, name.encode())
@@ -152,6 +172,11 @@ def boxes_of(values: Any, name: str) -> Any:
 def points_of(values: Any, name: str) -> Any:
     """The same of points, (n, 3)."""
     return _rows(values, 3, name)
+
+
+def planes_of(values: Any, name: str) -> Any:
+    """The same of planes, (n, 4)."""
+    return _rows(values, 4, name)
 
 
 def numbers_of(values: Any, count: int, name: str) -> Any:

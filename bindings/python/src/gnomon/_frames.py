@@ -1,4 +1,4 @@
-"""What changes from frame to frame? Jittered grids, suns that turn slowly, and visible depths that are followed."""
+"""What changes from frame to frame? Maps that are kept, jittered grids, suns that turn slowly, and visible depths that are followed."""
 from __future__ import annotations
 
 import ctypes
@@ -8,8 +8,64 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, Handle, call, lib, numbers_of
-from ._records import Camera, Input, Plan, VisibleDepths
+from ._call import GnomonError, Handle, call, expect, lib, make, numbers_of
+from ._records import Camera, ClipSpace, Input, Map, Plan, VisibleDepths, clip_space_of
+
+
+def rebased(map: Map, origin: ArrayLike) -> Map:
+    """The map with clip_from_camera_relative for an eye at origin, (3,) world space: of one that was kept from an earlier frame."""
+    eye, struct = numbers_of(origin, 3, "origin"), make("map")
+    call("gnomon_rebased", expect(map, Map, "map")._struct, eye.ctypes.data, struct)
+    return Map(struct)
+
+
+class Reuse(NamedTuple):
+    """How to make a map from that of the last frame. Rectangles are x, y, width and height, texels."""
+
+    kind: str  #: "none": draw the whole map; "identical": every texel holds; "scrolled": kept holds once moved, draw the strips
+    shift_x: int  #: texel (x, y) of the old map is (x + shift_x, y + shift_y) of the new one
+    shift_y: int  #: see shift_x
+    kept: NDArray[np.int32]  #: (4,): the part of the new map whose texels hold
+    strips: NDArray[np.int32]  #: (n, 4), n up to 2: parts to draw
+
+
+_REUSE = ("none", "identical", "scrolled")
+
+
+def compare(previous: Map, current: Map, clip_space: ClipSpace = None) -> Reuse:
+    """Which texels of a map of fit "stable" hold in the next frame. Casters must not have moved, and both frames must have drawn all
+    casters over the map (rectangle_planes) with depth clamp. clip_space: of both plans, flags or Plan.clip_space.
+
+    >>> boxes = [[-40, -1, -200, 40, 0, 20], [-4, 0, -30, 4, 6, -26.0]]
+    >>> frames = [plan(perspective(position=(0, 3, z), fov_y=1.0, far=250), directional((0.4, -1, 0.3)), boxes, boxes, fit="stable")
+    ...           for z in (10, 9.5)]
+    >>> found = compare(frames[0].maps[-1], frames[1].maps[-1], frames[1].clip_space)
+    >>> found.kind, len(found.strips) > 0
+    ('scrolled', True)
+    """
+    reuse = c.reuse()
+    before, now = expect(previous, Map, "previous"), expect(current, Map, "current")
+    call("gnomon_compare", before._struct, now._struct, clip_space_of(clip_space), reuse)
+    kept, *strips = ([r.x, r.y, r.width, r.height] for r in (reuse.kept, *reuse.strip[:reuse.strip_count]))
+    return Reuse(_REUSE[reuse.kind], reuse.shift_x, reuse.shift_y, np.array(kept, dtype=np.int32),
+                 np.array(strips, dtype=np.int32).reshape(-1, 4))
+
+
+def rectangle_planes(map: Map, rectangle: ArrayLike, clip_space: ClipSpace = None) -> NDArray[np.float64]:
+    """(5, 4): planes round all that can throw a shadow into a rectangle of a map, for cull_planes(); open towards the light.
+    rectangle: x, y, width and height, texels. clip_space: as of compare().
+
+    >>> boxes = [[-40, -1, -200, 40, 0, 20], [-4, 0, -30, 4, 6, -26.0]]
+    >>> first = plan(perspective(position=(0, 3, 10), fov_y=1.0, far=250), directional((0.4, -1, 0.3)), boxes, boxes).maps[0]
+    >>> cull_planes(rectangle_planes(first, (0, 0, 64, 64)), CasterSet(boxes)).tolist()
+    [0]
+    """
+    texels = numbers_of(rectangle, 4, "rectangle")
+    if not (np.abs(texels) < 2**31).all() or (texels != np.floor(texels)).any():
+        raise GnomonError("rectangle", "rectangle: expected whole numbers of 32 bits")
+    part, planes = c.texel_rect(*(int(one) for one in texels)), np.empty((5, 4))
+    call("gnomon_rectangle_planes", expect(map, Map, "map")._struct, part, clip_space_of(clip_space), planes.ctypes.data)
+    return planes
 
 
 def jitter_texels(frame: int) -> NDArray[np.float64]:
@@ -53,12 +109,13 @@ class HeldSun(NamedTuple):
 
 
 def hold_sun(camera: Camera, held: ArrayLike, sun: ArrayLike, casters: ArrayLike, *, points: Optional[ArrayLike],
-             most_pixels: float = 0.25, least_light_sine: float = 0.05) -> HeldSun:
+             normals: Optional[ArrayLike] = None, most_pixels: float = 0.25, least_light_sine: float = 0.05) -> HeldSun:
     """Keeps the direction of a sun that turns until a shadow edge could lie more than most_pixels from its true place.
 
     held: direction of the last frame, (3,); zeros before the first. sun: of this frame, (3,). casters: (6,), one box round
-    all casters. points: (n, 3) visible points, world space; None: the sun is not held. most_pixels: >= 0; 0 never holds.
-    least_light_sine: sine of the angle between light and surface below which points are not evaluated, 0..1.
+    all casters. points: (n, 3) visible points, world space; None: the sun is not held. normals: (n, 3) unit, one for each point,
+    towards the eye; default halfway between eye and light. most_pixels: >= 0; 0 never holds. least_light_sine: sine of the angle
+    between light and surface below which points are not evaluated, 0..1.
 
     >>> camera, ground = perspective(position=(0, 3, 0), fov_y=1.0), [[0, 0, -z] for z in range(5, 40)]
     >>> first = hold_sun(camera, (0, 0, 0), (0.3, -1, 0), (-40, -1, -90, 40, 6, 0), points=ground)
@@ -66,7 +123,7 @@ def hold_sun(camera: Camera, held: ArrayLike, sun: ArrayLike, casters: ArrayLike
     >>> bool((next.direction == first.direction).all()), next.error_pixels < 0.25
     (True, True)
     """
-    given, result = Input(camera, None, None, points), c.held_sun()
+    given, result = Input(camera, None, None, points=points, normals=normals), c.held_sun()
     last, now, box = numbers_of(held, 3, "held"), numbers_of(sun, 3, "sun"), numbers_of(casters, 6, "casters")
     call("gnomon_hold_sun", given.view, last.ctypes.data, now.ctypes.data, box.ctypes.data, float(most_pixels),
          float(least_light_sine), result)

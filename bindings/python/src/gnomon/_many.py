@@ -1,5 +1,5 @@
-"""Where do the texels go when there is more than one light, or more than one map in a texture? Pages, many lights, clusters of
-lights, atlases."""
+"""Where do the texels go when there is more than one light, or more than one map in a texture? Many lights, clusters of lights,
+atlases."""
 from __future__ import annotations
 
 import ctypes
@@ -9,91 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, call, expect, find, lib, make, points_of, set_fields, set_options
-from ._records import Boxes, Camera, Input, Light, Map, Plan, Record, VisibleDepths
-
-
-class PagePlan(Record):
-    """Levels and resident pages. pages: (n,) records level, column, row, slot, points. table: (m,) uint32. levels: Map."""
-
-    _shown = ("status", "page_count", "level_count", "target_m")
-
-    status: str
-    page_count: int
-    table_count: int
-    level_count: int
-    policy: str
-    page_texels: int
-    border_texels: int
-    capacity: int
-    target_m: float
-    points: int
-    points_outside: int
-    points_coarser: int
-    points_capped: int
-
-    @property
-    def pages(self) -> NDArray[Any]:
-        kind = np.dtype([("level", "u4"), ("column", "i4"), ("row", "i4"), ("slot", "u4"), ("points", "u4")])
-        return self._lent(self._struct.pages, self._struct.page_count, kind)
-
-    @property
-    def table(self) -> NDArray[np.uint32]:
-        return self._lent(self._struct.table, self._struct.table_count, np.dtype("u4"))
-
-    def _lent(self, place: int, count: int, kind: np.dtype) -> NDArray[Any]:
-        if not count:
-            return np.empty(0, dtype=kind)
-        # The memory of the call holds them: the view keeps it.
-        offset = place - self._keep.ctypes.data
-        return self._keep[offset:offset + count * kind.itemsize].view(kind)
-
-    @property
-    def levels(self) -> list[Map]:
-        return [self._map("gnomon_page_level", i) for i in range(self._struct.level_count)]
-
-    def page_map(self, page: int) -> Map:
-        """The page of this index as a map of its own."""
-        return self._map("gnomon_page_map", page)
-
-    def _map(self, what: str, index: int) -> Map:
-        struct = make("map")
-        call(what, self._struct, int(index), struct)
-        return Map(struct)
-
-    def select(self, points: ArrayLike) -> NDArray[np.int32]:
-        """Index of the page that serves each point, (n, 3) world space, or -1."""
-        array = points_of(points, "points")
-        indices = np.empty(len(array), dtype=np.int32)
-        call("gnomon_page_select", self._struct, array.ctypes.data, len(array), indices.ctypes.data)
-        return indices
-
-
-def pages(camera: Camera, light: Light, casters: Boxes, receivers: Boxes, *, points: ArrayLike,
-          normals: Optional[ArrayLike] = None, policy: str = "resolution", plan_options: Optional[dict[str, Any]] = None,
-          **options: Any) -> PagePlan:
-    """Chooses the pages of virtual shadow maps that visible points need.
-
-    points: (n, 3) world space; normals: (n, 3) unit. policy: a name of names("page_policies"). plan_options: of the base,
-    such as {"fit": "stable"}. options: fields of gnomon_page_options, such as capacity, page_texels, target_m.
-
-    >>> ground = np.stack([np.linspace(-5, 5, 50), np.zeros(50), np.linspace(-30, -5, 50)], axis=1)
-    >>> found = pages(perspective(position=(0, 3, 0), fov_y=1.0), directional((0.3, -1, 0)), [[0, 1, -9, 1, 6, -8]],
-    ...               [[-40, -1, -90, 40, 0, 0]], points=ground, capacity=256)
-    >>> bool(found.page_count == len(found.pages) > 0 and (found.select(ground) >= 0).all())
-    True
-    """
-    given = Input(camera, casters, receivers, points, normals)
-    settings = set_fields(make("page_options"), {"policy": find(c.PAGE_POLICIES, policy, "page_options.policy"), **options})
-    base = set_options(make("plan_options"), plan_options or {})
-    settings.plan = ctypes.addressof(base)
-    size = lib.gnomon_page_memory(settings.capacity, given.view.point_count)
-    if size == 0:
-        raise GnomonError("page_options.capacity")
-    memory = np.empty(size, dtype=np.uint8)
-    struct = make("page_plan")
-    call("gnomon_plan_pages", given.view, expect(light, Light, "light"), given.scene, settings, None, memory.ctypes.data, size, struct)
-    return PagePlan(struct, memory)
+from ._call import GnomonError, Handle, call, expect, lib, make, options_of, set_fields, set_options
+from ._records import Boxes, Camera, Input, Light, Plan, Record
 
 
 def _places(rectangles: Any) -> NDArray[np.int32]:
@@ -159,7 +76,8 @@ class LightMaps(Record):
 
 
 class LightPlan(Record):
-    """Maps of many lights in one pool: lights, pool_width, pool_height, texels, error, mapped, due."""
+    """Maps of many lights in one pool: lights, pool_width, pool_height, texels, error, mapped, due. Plan the maps of each light that is
+    due by plan() with plan_options()."""
 
     _shown = ("status", "mapped", "texels", "error")
 
@@ -168,55 +86,127 @@ class LightPlan(Record):
     pool_height: int
     texels: int
     due_texels: int
+    pages: int
+    milliseconds: float
+    due_milliseconds: float
     error: float
     mapped: int
     due: int
+    repacked: int
 
-    def __init__(self, struct: Any, maps: Any, clip_space: Any) -> None:
+    def __init__(self, struct: Any, maps: Any, settings: Any, base: Any) -> None:
         super().__init__(struct, maps)
-        self._clip_space = clip_space
+        # The settings point to the base.
+        self._settings, self._base = settings, base
         self.lights = [LightMaps(maps[i], maps) for i in range(struct.light_count)]
 
     def atlas(self, light: int) -> Atlas:
         """The pool as the atlas of one light's maps."""
         struct = c.atlas()
         call("gnomon_light_atlas", self._struct, int(light), struct)
-        return Atlas(struct, self._clip_space)
+        return Atlas(struct, c.clip_space.from_buffer_copy(self._base.clip_space))
+
+    def plan_options(self, light: int) -> dict[str, Any]:
+        """Options for the plan of one light, maps of its size: plan(..., **found.plan_options(0))."""
+        if not 0 <= light < len(self.lights):
+            raise GnomonError("light")
+        options = make("plan_options")
+        call("gnomon_light_plan_options", self._settings, self.lights[light]._struct, options)
+        return options_of(options)
+
+
+class LightHistory(Handle):
+    """State of lights() from frame to frame. Keep one per pool and camera. lights: most lights of a call, 0..4096.
+
+    >>> history, lamps = LightHistory(), [point((0, 4, -60), 5), point((3, 4, -70), 5)]
+    >>> for _ in range(2):
+    ...     lights(perspective(position=(0, 3, 0), fov_y=1.0), lamps, [[0, 1, -61, 1, 3, -59], [2, 1, -72, 4, 3, -69]],
+    ...            [[-40, -1, -90, 40, 0, 0]], history=history).due
+    2
+    0
+    """
+
+    def __init__(self, lights: int = c.MAX_LIGHTS) -> None:
+        self._place, self._count = None, int(lights)
+        if not 0 <= self._count <= c.MAX_LIGHTS:
+            raise GnomonError("lights", "lights: expected 0..%d" % c.MAX_LIGHTS)
+        super().__init__(lib.gnomon_light_history_create(self._count), lib.gnomon_light_history_destroy)
+
+    def swap(self, a: int, b: int) -> None:
+        """Exchanges what is remembered of two lights: where their order changes."""
+        lib.gnomon_light_history_swap(self.place, self._index(a, "a"), self._index(b, "b"))
+
+    def forget(self, light: int) -> None:
+        """Forgets one light: where another one takes its index."""
+        lib.gnomon_light_history_forget(self.place, self._index(light, "light"))
+
+    def _index(self, light: int, name: str) -> int:
+        if not 0 <= int(light) < self._count:
+            raise GnomonError(name, "%s: expected an index of a light, 0..%d" % (name, self._count - 1))
+        return int(light)
 
 
 def lights(camera: Camera, lights: Sequence[Light], casters: Boxes, receivers: Boxes, *,
-           weights: Optional[Sequence[float]] = None, points: Optional[ArrayLike] = None,
-           depths: Optional[VisibleDepths] = None, plan_options: Optional[dict[str, Any]] = None, **options: Any) -> LightPlan:
-    """Divides the texels of one pool among lights.
+           weights: Optional[Sequence[float]] = None, changed: Optional[Sequence[bool]] = None,
+           draws: Optional[Sequence[float]] = None, triangles: Optional[Sequence[float]] = None,
+           points: Optional[ArrayLike] = None, history: Optional[LightHistory] = None,
+           plan_options: Optional[dict[str, Any]] = None, **options: Any) -> LightPlan:
+    """Divides the texels of one pool among lights, and chooses which of them are due in this frame.
 
-    weights: count the error of a light so many times; default 1. options: fields of gnomon_light_options, such as
-    pool_width, pool_height, texel_budget, most_size.
+    One number for each light: weights count its error so many times, default 1; changed says that its casters moved, or that its
+    maps are lost; draws and triangles are those of all its maps, for millisecond_budget. points: (n, 3) visible points, world
+    space; default unknown. history: keeps maps where they are, and draws them less often; without, all are due. options: fields of
+    gnomon_light_options, such as pool_width, pool_height, texel_budget, most_size. Of plan_options, those of all lights, the sizes
+    are not read.
 
     >>> found = lights(perspective(position=(0, 3, 0), fov_y=1.0), [point((0, 4, -9), 20), point((3, 4, -20), 20)],
     ...                [[0, 1, -9, 1, 3, -8], [2, 1, -22, 4, 3, -19]], [[-40, -1, -90, 40, 0, 0]])
     >>> found.mapped, found.lights[0].texels > 0, found.atlas(0).count == found.lights[0].map_count
     (2, True, True)
+    >>> found.plan_options(0)["resolution_max_size"] == found.lights[0].texels
+    True
     """
-    given = Input(camera, casters, receivers, points, depths=depths)
+    given = Input(camera, casters, receivers, points=points)
     settings = set_fields(make("light_options"), options)
     base = set_options(make("plan_options"), plan_options or {})
     settings.plan = ctypes.addressof(base)
     count = len(lights)
-    if weights is not None and len(weights) != count:
-        raise GnomonError("light_request.weight", "weights: expected one for each light")
     requests = (c.light_request * max(count, 1))()
     for i, light in enumerate(lights):
         lib.gnomon_light_request_default(ctypes.byref(requests[i]), ctypes.sizeof(c.light_request))
         requests[i].light = ctypes.addressof(expect(light, Light, "lights"))
-        requests[i].weight = 1.0 if weights is None else weights[i]
+    for name, values in (("weight", weights), ("changed", changed), ("draws", draws), ("triangles", triangles)):
+        if values is None:
+            continue
+        if len(values) != count:
+            raise GnomonError("light_request." + name, "light_request.%s: expected one for each light" % name)
+        for request, value in zip(requests, values):
+            set_fields(request, {name: value})
     size = lib.gnomon_light_memory(count, given.view.point_count)
     memory = np.empty(max(size, 1), dtype=np.uint8)
     maps = (c.light_maps * max(count, 1))()
     struct = make("light_plan")
     struct.lights, struct.light_size, struct.light_room = ctypes.addressof(maps), ctypes.sizeof(c.light_maps), count
-    call("gnomon_plan_lights", given.view, requests, ctypes.sizeof(c.light_request), count, given.scene, settings, None,
-         memory.ctypes.data, size, struct)
-    return LightPlan(struct, maps, c.clip_space.from_buffer_copy(base.clip_space))
+    try:
+        call("gnomon_plan_lights", given.view, requests, ctypes.sizeof(c.light_request), count, given.scene, settings,
+             expect(history, LightHistory, "light_history").place if history is not None else None, memory.ctypes.data, size, struct)
+    except GnomonError as error:
+        if struct.invalid_light < 0:
+            raise
+        raise GnomonError(error.field, "lights[%d]: not usable: %s" % (struct.invalid_light, error.field)) from None
+    return LightPlan(struct, maps, settings, base)
+
+
+def camera_round(light: Light, camera: Camera) -> Camera:
+    """A camera that sees all that a local light can light, for maps that serve several frames. For parallel light, the camera
+    itself.
+
+    >>> camera_round(point((0, 4, -9), 20), perspective(position=(0, 3, 0), fov_y=1.0)).orthographic
+    1
+    """
+    round: Camera = make("camera")
+    call("gnomon_camera_round", expect(light, Light, "light"), expect(camera, Camera, "camera"), round)
+    return round
 
 
 class Clusters(Record):

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
 from ._call import GnomonError, call, expect, make
-from ._many import PagePlan
+from ._pages import PagePlan
 from ._records import Camera, Plan
 
 

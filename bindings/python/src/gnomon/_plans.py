@@ -2,24 +2,36 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, NamedTuple, Optional, Sequence, Union, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, boxes_of, call, expect, fields_of, make, points_of, set_fields, set_options
-from ._records import (Boxes, Camera, CasterSet, History, Input, Light, Map, Plan, Stats, VisibleDepths,
+from ._call import GnomonError, boxes_of, call, expect, fields_of, make, planes_of, points_of, set_fields, set_options
+from ._pages import PagePlan
+from ._records import (Boxes, Camera, CasterSet, History, Input, Light, Map, PageStats, Plan, Stats, VisibleDepths,
                        directional, omissions_of, perspective, plan_struct)
 
 
+def _planned(name: str, *given: Any) -> Plan:
+    """What a call writes whose last parameter is a plan."""
+    maps, omissions = (c.map * c.MAX_MAPS)(), (c.omission * c.MAX_OMISSIONS)()
+    struct = plan_struct(maps)
+    struct.omissions, struct.omission_room = ctypes.addressof(omissions), c.MAX_OMISSIONS
+    call(name, *given, struct)
+    return Plan(struct, maps, list(omissions_of(omissions, struct.omission_count)))
+
+
 def plan(camera: Camera, light: Light, casters: Boxes, receivers: Boxes, *, points: Optional[ArrayLike] = None,
-         depths: Optional[VisibleDepths] = None, history: Optional[History] = None, **options: Any) -> Plan:
+         normals: Optional[ArrayLike] = None, depths: Optional[VisibleDepths] = None, history: Optional[History] = None,
+         **options: Any) -> Plan:
     """Chooses the shadow maps of one light for one camera.
 
     casters, receivers: (n, 6) boxes, world space, or a CasterSet. points: (n, 3) visible points, world space; default
-    unknown. depths: visible depths of this frame or the last ones; default unknown. history: keeps maps steady from frame
-    to frame. options: fields of gnomon_plan_options in the C header, such as cascades, resolution_max_size, fit="stable",
+    unknown. normals: (n, 3) unit, one for each point, towards the eye: warps do not serve points that are turned from the light;
+    default unknown. depths: visible depths of this frame or the last ones; default unknown. history: keeps maps steady from
+    frame to frame. options: fields of gnomon_plan_options in the C header, such as cascades, resolution_max_size, fit="stable",
     warp="lispsm" (None: the plan chooses), split_scheme="practical", filter_texels, prune=[names],
     clip_space={"zero_to_one": True}. Raises GnomonError with the name of what is not usable.
 
@@ -29,26 +41,52 @@ def plan(camera: Camera, light: Light, casters: Boxes, receivers: Boxes, *, poin
     Traceback (most recent call last):
     gnomon.GnomonError: not usable: plan_options.cascades
     """
-    given = Input(camera, casters, receivers, points, depths=depths)
-    maps, omissions = (c.map * c.MAX_MAPS)(), (c.omission * c.MAX_OMISSIONS)()
-    struct = plan_struct(maps)
-    struct.omissions, struct.omission_room = ctypes.addressof(omissions), c.MAX_OMISSIONS
-    call("gnomon_make_plan", given.view, expect(light, Light, "light"), given.scene, set_options(make("plan_options"), options),
-         history.place if history is not None else None, struct)
-    return Plan(struct, maps, list(omissions_of(omissions, struct.omission_count)))
+    given = Input(camera, casters, receivers, points=points, normals=normals, depths=depths)
+    return _planned("gnomon_make_plan", given.view, expect(light, Light, "light"), given.scene, set_options(make("plan_options"), options),
+                    expect(history, History, "history").place if history is not None else None)
 
 
-def measure(plan: Plan, camera: Camera, receivers: Boxes, *, points: Optional[ArrayLike] = None, columns: int = 64,
-            rows: int = 64, depths: int = 64, map: int = -1) -> Stats:
-    """Measures the error of a plan over what the camera sees, also of foreign maps (Plan.foreign).
+def plan_views(cameras: Sequence[Camera], light: Light, casters: Boxes, receivers: Boxes, **options: Any) -> Plan:
+    """Chooses the maps that 1..8 cameras share: two eyes, a split screen, faces of a probe. Plan.origin is the mean of the eyes.
+    Otherwise as plan().
+
+    >>> eyes, boxes = [perspective(position=(x, 3, 0), fov_y=1.0) for x in (0, 0.06)], [[-40, -1, -90, 40, 0, 0], [0, 1, -9, 1, 6, -8]]
+    >>> plan_views(eyes, directional((0.3, -1, 0)), boxes, boxes, cascades=2).origin.tolist()
+    [0.03, 3.0, 0.0]
+    """
+    if not 1 <= len(cameras) <= c.MAX_VIEWS:
+        raise GnomonError("cameras", "cameras: expected 1..%d" % c.MAX_VIEWS)
+    places = (ctypes.c_void_p * len(cameras))(*(ctypes.addressof(expect(camera, Camera, "cameras")) for camera in cameras))
+    given = Input(cameras[0], casters, receivers)
+    return _planned("gnomon_plan_views", places, len(cameras), expect(light, Light, "light"), given.scene,
+                    set_options(make("plan_options"), options))
+
+
+@overload
+def measure(plan: Plan, camera: Camera, receivers: Boxes, *, points: Optional[ArrayLike] = None, normals: Optional[ArrayLike] = None,
+            columns: int = 64, rows: int = 64, depths: int = 64, map: int = -1) -> Stats: ...
+@overload
+def measure(plan: PagePlan, camera: Camera, receivers: Boxes, *, points: Optional[ArrayLike] = None, normals: Optional[ArrayLike] = None,
+            columns: int = 64, rows: int = 64, depths: int = 64, map: int = -1) -> PageStats: ...
+
+
+def measure(plan: Union[Plan, PagePlan], camera: Camera, receivers: Boxes, *, points: Optional[ArrayLike] = None,
+            normals: Optional[ArrayLike] = None, columns: int = 64, rows: int = 64, depths: int = 64, map: int = -1) -> Stats:
+    """Measures the error of a plan over what the camera sees: of its maps or pages, also of foreign maps (Plan.foreign).
 
     receivers: (n, 6) boxes or a CasterSet. points: (n, 3) visible points; without, columns x rows pixels with depths each
-    are sampled in the receivers. map: index of the one map that counts; -1: all.
+    are sampled in the receivers. normals: (n, 3) unit, one for each point: read for pages alone, whose error is then that on the
+    surface, without points that are turned from the light or the eye. map: index of the one map that counts; -1: all; not read for
+    pages.
     """
-    given = Input(camera, None, receivers, points)
+    given = Input(camera, None, receivers, points=points, normals=normals)
     options = set_fields(make("measure_options"), {"columns": columns, "rows": rows, "depths": depths, "map": map})
     stats = make("stats")
-    call("gnomon_measure", plan._struct, given.view, given.scene, options, stats)
+    if isinstance(plan, PagePlan):
+        texels = ctypes.c_double()
+        call("gnomon_measure_pages", plan._struct, given.view, given.scene, options, stats, ctypes.byref(texels))
+        return PageStats(stats, texels.value)
+    call("gnomon_measure", expect(plan, Plan, "plan")._struct, given.view, given.scene, options, stats)
     return Stats(stats)
 
 
@@ -99,6 +137,15 @@ def cull(map: Map, casters: Union[ArrayLike, CasterSet]) -> NDArray[np.uint32]:
         boxes = boxes_of(casters, "casters")
         indices = np.empty(len(boxes), dtype=np.uint32)
         call("gnomon_cull", map._struct, boxes.ctypes.data, len(boxes), indices.ctypes.data, len(boxes), ctypes.byref(found))
+    return indices[:found.value]
+
+
+def cull_planes(planes: ArrayLike, casters: CasterSet) -> NDArray[np.uint32]:
+    """Indices of the casters that lie within planes of one's own, in part at least: (n, 4), n up to 32, as Map.cull_planes. Those of
+    rectangle_planes(), say."""
+    array, found = planes_of(planes, "planes"), ctypes.c_int64()
+    indices = np.empty(len(expect(casters, CasterSet, "casters")), dtype=np.uint32)
+    call("gnomon_cull_planes", array.ctypes.data, len(array), casters.place, indices.ctypes.data, len(indices), ctypes.byref(found))
     return indices[:found.value]
 
 

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, Handle, boxes_of, call, expect, fields_of, find, lib, make, name_of, points_of, set_fields
+from ._call import (GnomonError, Handle, boxes_of, call, expect, fields_of, find, lib, make, name_of, numbers_of, points_of,
+                    set_fields)
 
 Camera = c.camera
 Light = c.light
@@ -66,9 +67,24 @@ def columns_of(matrix: ArrayLike, name: str) -> NDArray[np.float64]:
     return np.ascontiguousarray(array.T)
 
 
-def clip_space_of(flags: Optional[dict[str, bool]]) -> Any:
-    """A clip space of its flags; None: OpenGL."""
-    return set_fields(c.clip_space(), flags or {})
+ClipSpace = Union[dict[str, bool], c.clip_space, None]
+
+
+def clip_space_of(flags: ClipSpace) -> Any:
+    """A clip space of its flags; None: OpenGL. That of a plan is one already."""
+    return flags if isinstance(flags, c.clip_space) else set_fields(c.clip_space(), flags or {})
+
+
+def texture_from_clip(clip_space: ClipSpace = None) -> NDArray[np.float64]:
+    """(4, 4): from a map's clip space to its texture. x and y are 0..1 from the first texel of the first row on, z is the depth in
+    0..1. clip_space: flags such as {"zero_to_one": True}, or clip_space of a plan; default OpenGL.
+
+    >>> (texture_from_clip() @ (-1, 1, 0, 1)).tolist(), (texture_from_clip({"first_row_at_y_max": True}) @ (-1, 1, 0, 1)).tolist()
+    ([0.0, 1.0, 0.5, 1.0], [0.0, 0.0, 0.5, 1.0])
+    """
+    matrix = np.empty(16)
+    lib.gnomon_texture_from_clip(ctypes.byref(clip_space_of(clip_space)), matrix.ctypes.data)
+    return matrix.reshape(4, 4).T
 
 
 def directional(direction: ArrayLike) -> Light:
@@ -89,8 +105,25 @@ def point(position: ArrayLike, range: float) -> Light:
 
 # ------------------------------------------------------------------ handles
 
+class Event(NamedTuple):
+    """A discontinuity of one map from the last frame to this one."""
+
+    kind: str  #: "map_appeared", "map_refitted" or "density_jump": texels per area of some point changed by more than 5 %
+    map: int  #: Map.cascade
+    density_ratio: float  #: texels per area of now over before, where it is farthest from 1
+
+
+_EVENTS = ("map_appeared", "map_refitted", "density_jump")
+
+
 class History(Handle):
-    """State that plans carry from frame to frame. Keep one per camera and light; clear() it at a cut."""
+    """State that plans carry from frame to frame. Keep one per camera and light; clear() it at a cut.
+
+    >>> history, boxes = History(), [[-40, -1, -90, 40, 0, 0], [0, 1, -9, 1, 6, -8]]
+    >>> result = plan(perspective(position=(0, 3, 0), fov_y=1.0), directional((0.3, -1, 0)), boxes, boxes, cascades=1, history=history)
+    >>> [event.kind for event in history.events]
+    ['map_appeared']
+    """
 
     def __init__(self) -> None:
         super().__init__(lib.gnomon_history_create(), lib.gnomon_history_destroy)
@@ -98,6 +131,19 @@ class History(Handle):
     def clear(self) -> None:
         """Forgets all frames."""
         lib.gnomon_history_clear(self.place)
+
+    def copy(self) -> "History":
+        """A second one that is equal, to try a frame twice."""
+        place, copy = self.place, History()
+        lib.gnomon_history_copy(place, copy.place)
+        return copy
+
+    @property
+    def events(self) -> list[Event]:
+        """Jumps that the last plan could not avoid."""
+        structs = (c.event * c.MAX_MAPS)()
+        count = lib.gnomon_history_events(self.place, ctypes.byref(structs), c.MAX_MAPS)
+        return [Event(_EVENTS[one.kind], one.map, one.density_ratio) for one in structs[:min(count, c.MAX_MAPS)]]
 
 
 class CasterSet(Handle):
@@ -122,6 +168,11 @@ class CasterSet(Handle):
         """New bounds for all boxes, shape (n, 6), in their first order."""
         array = boxes_of(boxes, "boxes")
         call("gnomon_caster_set_refit", self.place, array.ctypes.data, len(array))
+
+    def update(self, index: int, box: ArrayLike) -> None:
+        """New bounds for the box of this index, (6,)."""
+        array = numbers_of(box, 6, "box")
+        call("gnomon_caster_set_update", self.place, int(index), array.ctypes.data)
 
 
 Boxes = Union[ArrayLike, CasterSet, None]
@@ -287,6 +338,7 @@ class Plan(Record):
     sizes_vary: int
     origin: NDArray[np.float64]
     light_direction: NDArray[np.float64]
+    clip_space: c.clip_space
 
     def __init__(self, struct: Any, maps: Any, omissions: Sequence[Omission]) -> None:
         super().__init__(struct, maps)
@@ -295,7 +347,7 @@ class Plan(Record):
 
     @classmethod
     def foreign(cls, maps: Sequence[Map], selection: str = "view_depth",
-                clip_space: Optional[dict[str, bool]] = None) -> "Plan":
+                clip_space: ClipSpace = None) -> "Plan":
         """A plan of another planner's maps, to be measured. selection: "view_depth", "first_holding" or "finest".
         clip_space: flags that hold for the matrices, such as {"zero_to_one": True}; default OpenGL."""
         array = (c.map * c.MAX_MAPS)()
@@ -331,6 +383,20 @@ class Stats(Record):
     outside: int
 
 
+class PageStats(Stats):
+    """The same of pages, and texels_per_pixel: texels of pages without borders over the pixels of the camera."""
+
+    texels_per_pixel: float
+
+    def __init__(self, struct: Any, texels_per_pixel: float) -> None:
+        super().__init__(struct)
+        self.texels_per_pixel = texels_per_pixel
+
+    def to_dict(self) -> dict[str, Any]:
+        """All fields as plain numbers."""
+        return {**super().to_dict(), "texels_per_pixel": self.texels_per_pixel}
+
+
 def plan_struct(maps: Any) -> Any:
     """A plan of C with room for maps."""
     struct = make("plan")
@@ -349,7 +415,7 @@ def omissions_of(structs: Any, count: int) -> Iterator[Omission]:
 class Input:
     """View and scene of C, with the arrays that they point into."""
 
-    def __init__(self, camera: Camera, casters: Boxes, receivers: Boxes, points: Optional[ArrayLike] = None,
+    def __init__(self, camera: Camera, casters: Boxes, receivers: Boxes, *, points: Optional[ArrayLike] = None,
                  normals: Optional[ArrayLike] = None, depths: Optional[VisibleDepths] = None) -> None:
         self.camera, self.view, self.scene = expect(camera, Camera, "camera"), make("view"), make("scene")
         self.view.camera = ctypes.addressof(camera)
