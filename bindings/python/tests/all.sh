@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
 # Does the package work as pip installs it? Into an environment of its own, with all tests, the examples of its manual, the guides
 # of docs/python_guides.md, and the sample of Panda3D.
-#   all.sh WORK_DIR CASES FRAMES PROGRAM [MORE], CASES and MORE of c_dump_cases, FRAMES of c_dump_frames, PROGRAM: gnomon
-# Without MORE, pages and lights of the cases are not compared.
+#   all.sh WORK_DIR CASES FRAMES PROGRAM MORE, CASES and MORE of c_dump_cases, FRAMES of c_dump_frames, PROGRAM: gnomon
 set -euo pipefail
 here="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")"
 work="$(readlink -m "$1")"
-export CASES="$(readlink -f "$2")" FRAMES="$(readlink -f "$3")" GNOMON_PROGRAM="$(readlink -f "$4")" MORE="${5:+$(readlink -f "$5")}"
+export CASES="$(readlink -f "$2")" FRAMES="$(readlink -f "$3")" GNOMON_PROGRAM="$(readlink -f "$4")" MORE="$(readlink -f "$5")"
 python3 -B "$here/../../layout.py" --check
 rm -rf "$work"
 # Where there is a compiler cache, the library is compiled once.

@@ -31,7 +31,6 @@ def field_of(run):
     return caught.value.field
 
 
-@pytest.mark.skipif(not os.environ.get("MORE"), reason="MORE names no file")
 def test_pages_and_lights_have_the_bits_of_the_native_library():
     with open(os.environ["MORE"], "rb") as file:
         data = file.read()
@@ -254,3 +253,16 @@ def test_bad_input_is_refused_by_name():
     # The message names the light.
     with pytest.raises(GnomonError, match=r"lights\[1\]: not usable: light_request.weight"):
         divided(lights, weights=[1, -1, 1])
+
+
+def test_fractions_texts_and_ragged_lists_are_refused_by_name():
+    boxes = gnomon.CasterSet(BOXES)
+    assert field_of(lambda: boxes.update(0.5, BOXES[0])) == "index"
+    for slots in (2.9, "12", None):
+        assert field_of(lambda: gnomon.PagePool(slots)) == "slots"
+    assert field_of(lambda: gnomon.LightHistory(2.7)) == "lights"
+    assert field_of(lambda: paged(policy=None)) == "page_options.policy"
+    assert field_of(lambda: paged(feedback=[[1], [2, 3]])) == "page_history.feedback"
+    assert field_of(lambda: gnomon.rebased(paged().levels[0], "abc")) == "origin"
+    assert field_of(lambda: gnomon.CasterSet([[0, 1], [2]])) == "boxes"
+    assert field_of(lambda: gnomon.texture_from_clip(3)) == "clip_space"

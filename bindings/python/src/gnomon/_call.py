@@ -133,7 +133,7 @@ def options_of(struct: Any) -> dict[str, Any]:
 
 def find(which: int, name: str, field: str) -> int:
     """Index of a name in a list."""
-    index = lib.gnomon_find(which, name.encode())
+    index = lib.gnomon_find(which, name.encode()) if isinstance(name, str) else c.UNKNOWN
     if index == c.UNKNOWN:
         raise GnomonError(field, "%s: there is no '%s'" % (field, name))
     return index
@@ -155,8 +155,26 @@ def strings(what: str) -> dict[str, str]:
     return {lib.gnomon_name(which, i).decode(): lib.gnomon_summary(which, i).decode() for i in range(lib.gnomon_count(which))}
 
 
+def array_of(values: Any, name: str, kind: Any = None) -> Any:
+    """Values as an array: the same memory where they are one of this kind."""
+    try:
+        return np.ascontiguousarray(values, dtype=kind)
+    except (TypeError, ValueError):
+        raise GnomonError(name, "%s: expected an array of numbers" % name) from None
+
+
+def whole(value: Any, name: str) -> int:
+    """A whole number: int() would cut a fraction, and read a text."""
+    try:
+        if int(value) == value:
+            return int(value)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise GnomonError(name, "%s: expected a whole number" % name)
+
+
 def _rows(values: Any, each: int, name: str) -> Any:
-    array = np.ascontiguousarray(values, dtype=np.float64)
+    array = array_of(values, name, np.float64)
     if array.size == 0:
         return array.reshape(0, each)
     if array.ndim != 2 or array.shape[1] != each:
@@ -181,7 +199,7 @@ def planes_of(values: Any, name: str) -> Any:
 
 def numbers_of(values: Any, count: int, name: str) -> Any:
     """So many numbers, in an array of their own where they are none."""
-    array = np.ascontiguousarray(values, dtype=np.float64)
+    array = array_of(values, name, np.float64)
     if array.shape != (count,):
         raise GnomonError(name, "%s: expected %d numbers" % (name, count))
     return array

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, Handle, call, expect, lib, make, numbers_of
+from ._call import GnomonError, Handle, call, expect, lib, make, numbers_of, whole
 from ._records import Camera, ClipSpace, Input, Map, Plan, VisibleDepths, clip_space_of
 
 
@@ -76,7 +76,7 @@ def jitter_texels(frame: int) -> NDArray[np.float64]:
     True
     """
     offset = np.empty(2)
-    if not 0 <= int(frame) < 2**32:
+    if not 0 <= whole(frame, "frame") < 2**32:
         raise GnomonError("frame", "frame: expected 0..2^32 - 1")
     lib.gnomon_jitter_texels(int(frame), offset.ctypes.data)
     return offset
@@ -144,7 +144,7 @@ class DepthTracker(Handle):
 
     def __init__(self, frames_per_bin: int = 4, hold_frames: int = 30) -> None:
         for name, frames in (("frames_per_bin", frames_per_bin), ("hold_frames", hold_frames)):
-            if not 1 <= int(frames) <= 65535:
+            if not 1 <= whole(frames, name) <= 65535:
                 self._place = None
                 raise GnomonError(name, "%s: expected 1..65535" % name)
         super().__init__(lib.gnomon_depth_tracker_create(int(frames_per_bin), int(hold_frames)),

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, Handle, call, expect, lib, make, options_of, set_fields, set_options
+from ._call import GnomonError, Handle, call, expect, lib, make, options_of, set_fields, set_options, whole
 from ._records import Boxes, Camera, Input, Light, Plan, Record
 
 
@@ -37,7 +37,7 @@ class Atlas(Record):
         """(4, 4): from the clip space of a map to its part of the atlas. x and y are 0..1 over the whole texture, z is the
         depth in 0..1. Draw the map with its place as the viewport."""
         matrix = np.empty(16)
-        call("gnomon_atlas_from_clip", self._struct, self._keep, int(map), matrix.ctypes.data)
+        call("gnomon_atlas_from_clip", self._struct, self._keep, whole(map, "map"), matrix.ctypes.data)
         return matrix.reshape(4, 4).T
 
 
@@ -51,7 +51,7 @@ def pack_atlas(plan: Plan, width: int = 0, height: int = 0) -> Atlas:
     ([[0, 0, 1024, 1024], [1024, 0, 1024, 1024]], 2048, 1024)
     """
     struct = c.atlas()
-    call("gnomon_pack_atlas", plan._struct, int(width), int(height), struct)
+    call("gnomon_pack_atlas", plan._struct, whole(width, "width"), whole(height, "height"), struct)
     return Atlas(struct, c.clip_space.from_buffer_copy(plan._struct.clip_space))
 
 
@@ -77,7 +77,7 @@ class LightMaps(Record):
 
 class LightPlan(Record):
     """Maps of many lights in one pool: lights, pool_width, pool_height, texels, error, mapped, due. Plan the maps of each light that is
-    due by plan() with plan_options()."""
+    due by plan() with plan_options(): for this camera, or for that of camera_round() where frames of the light is above 1."""
 
     _shown = ("status", "mapped", "texels", "error")
 
@@ -103,7 +103,7 @@ class LightPlan(Record):
     def atlas(self, light: int) -> Atlas:
         """The pool as the atlas of one light's maps."""
         struct = c.atlas()
-        call("gnomon_light_atlas", self._struct, int(light), struct)
+        call("gnomon_light_atlas", self._struct, whole(light, "light"), struct)
         return Atlas(struct, c.clip_space.from_buffer_copy(self._base.clip_space))
 
     def plan_options(self, light: int) -> dict[str, Any]:
@@ -127,7 +127,7 @@ class LightHistory(Handle):
     """
 
     def __init__(self, lights: int = c.MAX_LIGHTS) -> None:
-        self._place, self._count = None, int(lights)
+        self._place, self._count = None, whole(lights, "lights")
         if not 0 <= self._count <= c.MAX_LIGHTS:
             raise GnomonError("lights", "lights: expected 0..%d" % c.MAX_LIGHTS)
         super().__init__(lib.gnomon_light_history_create(self._count), lib.gnomon_light_history_destroy)
@@ -141,7 +141,7 @@ class LightHistory(Handle):
         lib.gnomon_light_history_forget(self.place, self._index(light, "light"))
 
     def _index(self, light: int, name: str) -> int:
-        if not 0 <= int(light) < self._count:
+        if not 0 <= whole(light, "light") < self._count:
             raise GnomonError(name, "%s: expected an index of a light, 0..%d" % (name, self._count - 1))
         return int(light)
 
@@ -198,8 +198,8 @@ def lights(camera: Camera, lights: Sequence[Light], casters: Boxes, receivers: B
 
 
 def camera_round(light: Light, camera: Camera) -> Camera:
-    """A camera that sees all that a local light can light, for maps that serve several frames. For parallel light, the camera
-    itself.
+    """A camera that sees all that a local light can light, for maps that serve several frames: LightMaps.frames above 1. Other
+    maps are better for the camera itself. For parallel light, the camera itself.
 
     >>> camera_round(point((0, 4, -9), 20), perspective(position=(0, 3, 0), fov_y=1.0)).orthographic
     1
@@ -263,7 +263,7 @@ def clusters(camera: Camera, lights: Sequence[Light], *, tile_pixels: int = 64, 
     ([1], [0, 1])
     """
     count = len(lights)
-    if not 0 <= int(room) < 2**31:
+    if not 0 <= whole(room, "room") < 2**31:
         raise GnomonError("light_clusters.light_room", "room: expected 0..2^31 - 1")
     array = (c.light * max(count, 1))()
     for i, light in enumerate(lights):

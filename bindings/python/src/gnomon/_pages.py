@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, boxes_of, call, expect, find, lib, make, points_of, set_fields, set_options
+from ._call import GnomonError, array_of, boxes_of, call, expect, find, lib, make, points_of, set_fields, set_options, whole
 from ._records import Boxes, Camera, Input, Light, Map, Omission, Record, omissions_of
 
 # Bits of feedback.
@@ -67,7 +67,7 @@ class PagePlan(Record):
 
     def _map(self, what: str, index: int) -> Map:
         struct = make("map")
-        call(what, self._struct, int(index), struct)
+        call(what, self._struct, whole(index, "page"), struct)
         return Map(struct)
 
     def select(self, points: ArrayLike) -> NDArray[np.int32]:
@@ -87,8 +87,8 @@ def pages(camera: Camera, light: Light, casters: Boxes, receivers: Boxes, *, poi
           feedback: Optional[ArrayLike] = None, plan_options: Optional[dict[str, Any]] = None, **options: Any) -> PagePlan:
     """Chooses the pages of virtual shadow maps that visible points need.
 
-    points: (n, 3) world space; None: samples of the receivers. normals: (n, 3) unit. policy: a name of names("page_policies").
-    last: the plan of the last frame. feedback: (n,) uint8, what its picture showed at each point: bits SHADOW_EDGE (a shadow edge
+    points: (n, 3) world space; None, or no point: samples of the receivers. normals: (n, 3) unit. policy: a name of
+    names("page_policies"). last: the plan of the last frame. feedback: (n,) uint8, what its picture showed at each point: bits SHADOW_EDGE (a shadow edge
     lies at the point or next to it; policies edges, picture), SHADOW_CHANGED (the last refinement changed whether the point is
     lit; queried) and DEPTH_EDGE (view depths jump there; tiled). Both default unknown. plan_options: of the base, such as
     {"fit": "stable"}; without a warp there, none is taken. options: fields of gnomon_page_options, such as capacity, page_texels,
@@ -124,7 +124,7 @@ def pages(camera: Camera, light: Light, casters: Boxes, receivers: Boxes, *, poi
 
 
 def _bytes_of(values: ArrayLike, name: str) -> NDArray[np.uint8]:
-    array = np.asarray(values)
+    array = array_of(values, name)
     # numpy would keep the lower bits of a number that is too large.
     fits = array.dtype == np.uint8 or array.dtype.kind in "biuf" and ((array >= 0) & (array < 256) & (array == np.floor(array))).all()
     if array.ndim != 1 or not fits:
@@ -149,7 +149,7 @@ class PagePool:
     """
 
     def __init__(self, slots: int) -> None:
-        size = lib.gnomon_page_table_size(int(slots)) if 1 <= int(slots) < 2**31 else 0
+        size = lib.gnomon_page_table_size(int(slots)) if 1 <= whole(slots, "slots") < 2**31 else 0
         if size == 0:
             raise GnomonError("slots", "slots: expected 1..2^20")
         self._slots, self._table = (c.page_slot * int(slots))(), np.zeros(size, dtype=np.uint32)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, call, expect, make
+from ._call import GnomonError, call, expect, make, whole
 from ._pages import PagePlan
 from ._records import Camera, Plan
 
@@ -151,7 +151,7 @@ def shadow_edge_points(camera: Camera, mask: ArrayLike, view_depths: ArrayLike, 
     """Points of the surfaces along the shadow's edges, (n, 3) world space: at most room, evenly over the picture. A plan for
     them (points=) has its texels where they show. mask, view_depths: as of expected_error()."""
     struct = _picture(camera, mask=mask, view_depths=view_depths)
-    if not 0 <= int(room) < 2**31:
+    if not 0 <= whole(room, "room") < 2**31:
         raise GnomonError("room", "room: expected 0..2^31 - 1")
     points, written = np.empty((int(room), 3)), ctypes.c_int64()
     call("gnomon_shadow_edge_points", struct, points.ctypes.data, len(points), ctypes.byref(written))

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, boxes_of, call, expect, fields_of, make, planes_of, points_of, set_fields, set_options
+from ._call import GnomonError, boxes_of, call, expect, fields_of, make, planes_of, points_of, set_fields, set_options, whole
 from ._pages import PagePlan
 from ._records import (Boxes, Camera, CasterSet, History, Input, Light, Map, PageStats, Plan, Stats, VisibleDepths,
                        directional, omissions_of, perspective, plan_struct)
@@ -74,7 +74,7 @@ def measure(plan: Union[Plan, PagePlan], camera: Camera, receivers: Boxes, *, po
             normals: Optional[ArrayLike] = None, columns: int = 64, rows: int = 64, depths: int = 64, map: int = -1) -> Stats:
     """Measures the error of a plan over what the camera sees: of its maps or pages, also of foreign maps (Plan.foreign).
 
-    receivers: (n, 6) boxes or a CasterSet. points: (n, 3) visible points; without, columns x rows pixels with depths each
+    receivers: (n, 6) boxes or a CasterSet. points: (n, 3) visible points; None, or no point: columns x rows pixels with depths each
     are sampled in the receivers. normals: (n, 3) unit, one for each point: read for pages alone, whose error is then that on the
     surface, without points that are turned from the light or the eye. map: index of the one map that counts; -1: all; not read for
     pages.
@@ -152,7 +152,7 @@ def cull_planes(planes: ArrayLike, casters: CasterSet) -> NDArray[np.uint32]:
 def shader_block(plan: Plan, layer_width: int = 0, layer_height: int = 0, blur_texels: float = 0.0) -> NDArray[np.float32]:
     """The uniform block of shaders/library/shadow_block.glsl (std140), (460,) float32."""
     block = np.empty(c.SHADER_BLOCK_FLOATS, dtype=np.float32)
-    call("gnomon_shader_block", plan._struct, int(layer_width), int(layer_height), float(blur_texels), block.ctypes.data)
+    call("gnomon_shader_block", plan._struct, whole(layer_width, "layer_width"), whole(layer_height, "layer_height"), float(blur_texels), block.ctypes.data)
     return block
 
 
@@ -181,5 +181,5 @@ def engine_bias(plan: Plan, map: int, way: str = "rasterizer", *, kernel_radius_
     bias, ways = c.engine_bias(), {"rasterizer": c.BIAS_RASTERIZER, "normal_offset": c.BIAS_NORMAL_OFFSET}
     if way not in ways:
         raise GnomonError("way", "way: expected 'rasterizer' or 'normal_offset'")
-    call("gnomon_translate_bias", plan._struct, int(map), ways[way], float(kernel_radius_texels), int(depth_bits), bias)
+    call("gnomon_translate_bias", plan._struct, whole(map, "map"), ways[way], float(kernel_radius_texels), whole(depth_bits, "depth_bits"), bias)
     return EngineBias(bias.depth, bias.slope_factor, bias.normal_world, bias.units)

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
 from ._call import (GnomonError, Handle, boxes_of, call, expect, fields_of, find, lib, make, name_of, numbers_of, points_of,
-                    set_fields)
+                    set_fields, whole)
 
 Camera = c.camera
 Light = c.light
@@ -30,7 +30,7 @@ def perspective(*, position: ArrayLike = (0, 0, 0), forward: ArrayLike = (0, 0, 
     """
     camera = make("camera")
     set_fields(camera, {"position": position, "forward": forward, "up": up})
-    call("gnomon_perspective", camera, float(fov_y), float(aspect), float(near), float(far), int(width), int(height))
+    call("gnomon_perspective", camera, float(fov_y), float(aspect), float(near), float(far), whole(width, "width"), whole(height, "height"))
     return camera
 
 
@@ -40,7 +40,7 @@ def orthographic(*, position: ArrayLike = (0, 0, 0), forward: ArrayLike = (0, 0,
     """A parallel projection of height_world world units from bottom to top; otherwise as perspective()."""
     camera = make("camera")
     set_fields(camera, {"position": position, "forward": forward, "up": up})
-    call("gnomon_orthographic", camera, float(height_world), float(aspect), float(near), float(far), int(width), int(height))
+    call("gnomon_orthographic", camera, float(height_world), float(aspect), float(near), float(far), whole(width, "width"), whole(height, "height"))
     return camera
 
 
@@ -53,7 +53,7 @@ def camera_from(view_from_world: ArrayLike, clip_from_view: ArrayLike, *, width:
     space = c.clip_space(zero_to_one=zero_to_one, reversed_z=reversed_z, y_down=y_down, left_handed=left_handed)
     view, clip = (columns_of(m, name) for m, name in ((view_from_world, "view_from_world"), (clip_from_view, "clip_from_view")))
     try:
-        call("gnomon_camera_from", view.ctypes.data, clip.ctypes.data, space, int(width), int(height), camera, ctypes.byref(why))
+        call("gnomon_camera_from", view.ctypes.data, clip.ctypes.data, space, whole(width, "width"), whole(height, "height"), camera, ctypes.byref(why))
     except GnomonError as error:
         raise GnomonError(error.field, why.value.decode() if why.value else None) from None
     return camera
@@ -72,7 +72,7 @@ ClipSpace = Union[dict[str, bool], c.clip_space, None]
 
 def clip_space_of(flags: ClipSpace) -> Any:
     """A clip space of its flags; None: OpenGL. That of a plan is one already."""
-    return flags if isinstance(flags, c.clip_space) else set_fields(c.clip_space(), flags or {})
+    return flags if isinstance(flags, c.clip_space) else set_fields(c.clip_space(), expect(flags or {}, dict, "clip_space"))
 
 
 def texture_from_clip(clip_space: ClipSpace = None) -> NDArray[np.float64]:
@@ -172,7 +172,7 @@ class CasterSet(Handle):
     def update(self, index: int, box: ArrayLike) -> None:
         """New bounds for the box of this index, (6,)."""
         array = numbers_of(box, 6, "box")
-        call("gnomon_caster_set_update", self.place, int(index), array.ctypes.data)
+        call("gnomon_caster_set_update", self.place, whole(index, "index"), array.ctypes.data)
 
 
 Boxes = Union[ArrayLike, CasterSet, None]
