@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 namespace gnomon {
@@ -41,6 +42,14 @@ Light default_light(const LightPlacement& placement, const Box& scene) noexcept 
     return SpotLight{middle + 0.6 * extent * to_light, -to_light, kHalfAngle, 1.5 * extent};
   }
   return PointLight{middle + glm::dvec3(0.0, 0.3 * size.y, 0.0), 0.75 * extent};
+}
+
+double covering_range(const glm::dvec3& position, const Box& scene) noexcept {
+  constexpr double kFarther = 2.0;
+  Box all = scene;
+  all.extend(position);
+  const double diagonal = glm::length(all.max - all.min);
+  return diagonal > 0.0 ? kFarther * diagonal : 1.0;
 }
 
 std::vector<Light> local_lights(int count, const Box& scene) {

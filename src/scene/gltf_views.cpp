@@ -12,6 +12,7 @@
 
 #include "gltf_check.hpp"
 #include "gltf_nodes.hpp"
+#include "gnomon/scene/default_light.hpp"
 #include "refusal.hpp"
 
 namespace gnomon::detail {
@@ -158,10 +159,7 @@ glm::dvec3 axis_of(const glm::dmat4& m, int column, const glm::dvec3& otherwise)
 Light placed(Light light, const glm::dmat4& world, const Box& scene) {
   const glm::dvec3 position(world[3]), direction = -axis_of(world, 2, {0.0, 1.0, 0.0});
   const auto endless = [&](double& range) {
-    Box all = scene;
-    all.extend(position);
-    constexpr double kFarther = 2.0;
-    if (!(range > 0.0)) range = kFarther * glm::length(all.max - all.min);
+    if (!(range > 0.0)) range = covering_range(position, scene);
   };
   if (auto* sun = std::get_if<DirectionalLight>(&light)) sun->direction = direction;
   if (auto* bulb = std::get_if<PointLight>(&light)) {

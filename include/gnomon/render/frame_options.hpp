@@ -84,8 +84,8 @@ struct FrameOptions {
   /// Filters compare each texel with the receiver's plane at that texel. False: with the receiver's own
   /// depth, as look-ups without the plane do; BiasOptions must then cover the slope over the whole kernel.
   bool receiver_plane = true;
-  /// The spot or point light at whose cone and range the picture fades out; the mask is the plan's alone.
-  /// nullptr: none.
+  /// The spot or point light at whose cone and range the picture fades out; the mask is the plan's alone. It
+  /// says where the light of a plan without maps is. nullptr: none.
   const Light* light = nullptr;
   bool aliasing = true;      ///< the error per pixel
   bool heat_map = true;      ///< the same as colours; needs `aliasing`

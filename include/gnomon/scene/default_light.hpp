@@ -29,6 +29,10 @@ struct LightPlacement {
 /// empty one the position is not a number: make_plan refuses both.
 [[nodiscard]] Light default_light(const LightPlacement& placement, const Box& scene) noexcept;
 
+/// The range of a local light that reaches all of the scene: twice the diagonal of the box round both. It is
+/// 1 where that box is a point.
+[[nodiscard]] double covering_range(const glm::dvec3& position, const Box& scene) noexcept;
+
 /// Local lights, even over the ground of the scene: each third a spot that looks down, the others points.
 /// Each lights somewhat more than its part of the ground. Equal input gives equal lights. `count` >= 0. Based
 /// on: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018.

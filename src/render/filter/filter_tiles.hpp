@@ -19,7 +19,7 @@ struct TilePrograms {
 /// One state for each tile of each map (shaders/pass/store/tiles.glsl), and the lists of the map at hand.
 class FilterTiles {
  public:
-  /// The lists, in the order of the groups in shaders/common/tiles.glsl.
+  /// The lists, in the order of the groups in shaders/pass/store/tiles.glsl.
   enum class List : std::uint8_t { tiles, rows };
   /// What becomes of a layer's states before the frame's reads are marked.
   struct Keep {

@@ -14,12 +14,12 @@ namespace {
 
 /// View depth of thick air: the far plane's for an eye in the scene. Farther off for one outside, whose far
 /// plane may lie close behind a single object: that has no distance in it.
-double air_depth(const Camera& camera, const Box& scene_world) noexcept {
+double air_depth(const Camera& camera, double far_depth, const Box& scene_world) noexcept {
   constexpr double kLeast = 0.01;
-  if (scene_world.empty()) return camera.far_depth;
+  if (scene_world.empty()) return far_depth;
   const glm::dvec3 nearest = glm::clamp(camera.position, scene_world.min, scene_world.max);
-  const double within = std::max(1.0 - glm::distance(nearest, camera.position) / camera.far_depth, kLeast);
-  return camera.far_depth / (within * within);
+  const double within = std::max(1.0 - glm::distance(nearest, camera.position) / far_depth, kLeast);
+  return far_depth / (within * within);
 }
 
 }  // namespace
@@ -29,7 +29,7 @@ void Renderer::Impl::draw(FrameJob& frame, FrameSource& source) {
   const SourceSteps steps = source.steps(frame);
   const auto update = [&] { source.update(frame); };
   begin(frame, source);
-  frame.block.layer.w = static_cast<float>(air_depth(frame.camera, bounds_world));
+  frame.block.layer.w = static_cast<float>(air_depth(frame.camera, frame.far_depth, bounds_world));
   screen.upload(frame.block, frame.filtering);
   if (!steps.casters_last) timed(Pass::shadow_maps, update);
   bool holds_surfaces = false;

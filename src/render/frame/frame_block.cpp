@@ -4,8 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <optional>
 #include <variant>
 
+#include "base/travel.hpp"
 #include "gnomon/motion.hpp"
 #include "gnomon/shader.hpp"
 
@@ -27,10 +29,21 @@ glm::dmat4 camera_clip_from_relative(const Camera& camera, const CameraAxes& axe
   return reversed * clip_from_view(camera) * view_from_relative;
 }
 
+/// Of a local light. A plan without maps does not have it.
+std::optional<glm::dvec3> light_position(const ShadowPlan& plan, const Light* light) noexcept {
+  if (plan.map_count > 0) {
+    const glm::dvec4& place = plan.map[0].light_world;
+    return place.w == 0.0 ? std::nullopt : std::optional(glm::dvec3(place));
+  }
+  if (light == nullptr || std::holds_alternative<DirectionalLight>(*light)) return std::nullopt;
+  return position_of(*light);
+}
+
 /// Direction, or position relative to the camera, as light_at of shaders/library/shadow_map.glsl takes it.
-glm::vec4 light_place(const ShadowPlan& plan, const Camera& camera) noexcept {
-  if (plan.map_count == 0 || plan.map[0].light_world.w == 0.0) return {glm::vec3(plan.light_direction), 0.0f};
-  return {glm::vec3(glm::dvec3(plan.map[0].light_world) - camera.position), 1.0f};
+glm::vec4 light_place(const ShadowPlan& plan, const Light* light, const Camera& camera) noexcept {
+  const std::optional<glm::dvec3> position = light_position(plan, light);
+  if (!position) return {glm::vec3(plan.light_direction), 0.0f};
+  return {glm::vec3(*position - camera.position), 1.0f};
 }
 
 void set_local_light(const Light* light, FrameBlock& block) noexcept {
@@ -100,7 +113,7 @@ FrameBlock frame_block(const ShadowPlan& plan, const Camera& camera, const Frame
   block.light = glm::vec4(glm::vec3(plan.light_direction), static_cast<float>(plan.map_count));
   block.bias = glm::vec4(glm::dvec4(plan.bias.constant_texels, plan.bias.slope_texels,
                                     plan.bias.normal_offset_texels, plan.bias.max_slope));
-  block.light_place = light_place(plan, camera);
+  block.light_place = light_place(plan, options.light, camera);
   block.layer = glm::vec4(layer_width, layer_height, 0.0f, 0.0f);  // the air's depth comes with the scene
   set_local_light(options.light, block);
   block.selection = glm::vec4(shader_selection(plan), static_cast<float>(options.transition),

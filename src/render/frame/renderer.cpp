@@ -2,7 +2,11 @@
 #include "gnomon/render/renderer.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <span>
 
 #include "frame/renderer_impl.hpp"
 #include "gnomon/render/page_filter.hpp"
@@ -13,6 +17,32 @@ namespace {
 void GLAD_API_PTR report_gl_error(GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message,
                                   const void*) {
   if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "OpenGL: %s\n", message);
+}
+
+/// A camera of parallel rays with planes next to what it shows. Its depths are even: planes far from all
+/// surfaces would leave those few steps of a float.
+Camera between_surfaces(Camera camera, std::span<const Box> casters, std::span<const Box> panes) noexcept {
+  if (!camera.orthographic) return camera;
+  const glm::dvec3 forward = camera_axes(camera).forward;
+  double nearest = camera.far_depth, farthest = camera.near_depth;
+  for (const std::span<const Box> boxes : {casters, panes}) {
+    for (const Box& box : boxes) {
+      if (box.empty()) continue;
+      const double middle = glm::dot(0.5 * (box.min + box.max) - camera.position, forward);
+      const double half = glm::dot(0.5 * (box.max - box.min), glm::abs(forward));
+      nearest = std::min(nearest, middle - half);
+      farthest = std::max(farthest, middle + half);
+    }
+  }
+  constexpr double kRoom = 0x1p-10;  // of the depths, for rounding
+  const double room = kRoom * (std::abs(nearest) + std::abs(farthest));
+  const double near_depth = std::max(camera.near_depth, nearest - room);
+  const double far_depth = std::min(camera.far_depth, farthest + room);
+  if (near_depth < far_depth) {
+    camera.near_depth = near_depth;
+    camera.far_depth = far_depth;
+  }
+  return camera;
 }
 
 }  // namespace
@@ -146,13 +176,16 @@ FrameStats Renderer::draw(const Shadows& shadows, const Camera& camera, const Pr
     of_light.map_count = !pages->pages.empty() && programs.mask_pages ? 1 : 0;
     if (of_light.map_count > 0) of_light.map[0] = page_map(*pages, pages->pages[0]);
   }
+  const Camera drawn = between_surfaces(camera, impl.casters.buffers.boxes(),
+                                        impl.panes ? impl.panes->scene().boxes() : std::span<const Box>());
   FrameJob frame{shadows,
                  shadows.maps() != nullptr ? *shadows.maps() : of_light,
-                 camera,
+                 drawn,
                  filter,
                  options,
                  impl.filters[filter.program],
-                 impl.panes ? &*impl.panes : nullptr};
+                 impl.panes ? &*impl.panes : nullptr,
+                 camera.far_depth};
   impl.draw(frame, impl.sources.of(frame));
   return frame.stats;
 }

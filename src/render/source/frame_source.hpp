@@ -15,11 +15,12 @@ namespace gnomon::render {
 struct FrameJob {
   const Shadows& shadows;
   const ShadowPlan& plan;  ///< of maps; else one that holds the light of pages, or nothing
-  const Camera& camera;
+  const Camera& camera;    ///< as it is drawn
   const PreparedFilter& filter;
   const FrameOptions& options;
   FilterPrograms& programs;      ///< of the filter
   PanePass* panes;               ///< nullptr: none
+  double far_depth;              ///< of the camera that was given
   FrameOptionSet asked = {};     ///< options that are in use
   FrameOptionSet honoured = {};  ///< of these, what the source supports
   FrameStats stats = {};

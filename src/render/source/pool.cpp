@@ -75,11 +75,8 @@ FrameBlock block_of(const DrawnLight& light, const LightMaps& maps, const Camera
   FrameBlock block = frame_block(plan, camera, own, pool.x, pool.y, BlurSides{}, depth_curves(plan));
   if (const auto* sun = std::get_if<DirectionalLight>(&light.light)) {
     block.light_place = glm::vec4(glm::vec3(glm::normalize(sun->direction)), 0.0f);
-  } else {
-    const auto* spot = std::get_if<SpotLight>(&light.light);
-    const auto* point = std::get_if<PointLight>(&light.light);
-    const glm::dvec3 position = spot != nullptr ? spot->position : point->position;
-    block.light_place = glm::vec4(glm::vec3(position - camera.position), light.inverse_square ? 2.0f : 1.0f);
+  } else if (light.inverse_square) {
+    block.light_place.w = 2.0f;
   }
   for (std::size_t k = 0; k < plan.maps().size(); ++k)
     move_to_place(plan.map[k], maps.place[k], plan.selection != MapSelection::view_depth, glm::vec2(pool),

@@ -88,8 +88,12 @@ std::span<const Preset> presets() noexcept {
 }
 
 Light light_of(const LightState& light, const Box& scene) noexcept {
-  if (light.sun.kind == LightKind::spot && light.spot) return *light.spot;
-  if (light.sun.kind == LightKind::point && light.point) return *light.point;
+  const auto ranged = [&scene](auto local) {
+    if (local.range == 0.0) local.range = covering_range(local.position, scene);
+    return local;
+  };
+  if (light.sun.kind == LightKind::spot && light.spot) return ranged(*light.spot);
+  if (light.sun.kind == LightKind::point && light.point) return ranged(*light.point);
   return default_light(light.sun, scene);
 }
 

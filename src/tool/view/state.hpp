@@ -63,7 +63,8 @@ struct Settings {
   bool visible_depths = false;  ///< each frame is drawn twice, the second for the depths that the first shows
 };
 
-/// The light. Local lights lie where default_light() puts them until they are moved.
+/// The light. Local lights lie where default_light() puts them until they are moved. A range of 0 covers the
+/// scene, until the light is moved.
 struct LightState {
   LightPlacement sun;  ///< its kind decides which of these is used
   std::optional<SpotLight> spot;

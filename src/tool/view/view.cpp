@@ -51,15 +51,15 @@ void resolve_light(const Request& request, LightState& light) {
   }
   if (light.sun.kind == LightKind::sun)
     throw std::runtime_error("--light-position: the sun has none; give --light spot or --light point");
-  constexpr double kRange = 100.0, kRadians = 3.14159265358979323846 / 180.0;
+  constexpr double kRadians = 3.14159265358979323846 / 180.0;
   const glm::dvec3 position = *request.light_position;
-  const double range = request.light_range > 0.0 ? request.light_range : kRange;
   if (light.sun.kind == LightKind::point) {
-    light.point = PointLight{position, range};
+    light.point = PointLight{position, request.light_range};
     return;
   }
   const glm::dvec3 down{0.0, -1.0, 0.0};
-  SpotLight spot{position, request.light_direction.value_or(down), SpotLight{}.outer_radians, range};
+  SpotLight spot{position, request.light_direction.value_or(down), SpotLight{}.outer_radians,
+                 request.light_range};
   if (spot.direction == glm::dvec3(0.0)) throw std::runtime_error("--light-direction: must not be zero");
   if (request.light_outer_deg > 0.0) spot.outer_radians = request.light_outer_deg * kRadians;
   light.spot = spot;
@@ -309,7 +309,7 @@ std::vector<Option> setting_options(Request& request) {
        .range = {{0.0, 179.9}}},
       {.name = "--light-range",
        .target = &request.light_range,
-       .help = "distance that the local light reaches, world units",
+       .help = "distance that the local light reaches, world units; 0: all of the scene",
        .range = {{0.0, 1e30}}},
       {.name = "--animation",
        .target = &state.playing.animation,

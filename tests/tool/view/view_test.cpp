@@ -227,7 +227,7 @@ TEST(ViewPicture, stays_as_it_was_where_the_state_is_refused) {
   refused(
       [](State& s) {
         s.light.sun.kind = LightKind::point;
-        s.light.point = PointLight{{0, 1, 0}, 0.0};
+        s.light.point = PointLight{{0, 1, 0}, -1.0};
       },
       "light.range");
   EXPECT_EQ(share_equal(picture(state), good, 0, kWidth), 1.0);
@@ -422,6 +422,39 @@ TEST(ViewMemory, is_steady_over_five_hundred_switches) {
   // The allocator's own movement; a leak of one 64 x 36 picture each time would be 4.6 MB.
   constexpr std::size_t kRoom = 3'000'000;
   EXPECT_LT(resident_bytes(), before + kRoom);
+}
+
+/// Mean of all channels, 0..255.
+double brightness_of(const Image& image) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+    sum += image.rgba[i] + image.rgba[i + 1] + image.rgba[i + 2];
+  return sum / (0.75 * static_cast<double>(image.rgba.size()));
+}
+
+TEST(ViewLight, that_reaches_nothing_lights_nothing_and_one_without_range_all) {
+  State state = hangar();
+  state.light.sun.kind = LightKind::point;
+  const Box& scene = stage().loaded().scene.bounds_world;
+  const glm::dvec3 over = 0.5 * (scene.min + scene.max) + glm::dvec3(0.0, 3.0 * scene.max.y, 0.0);
+  state.light.point = PointLight{over, 1.0};
+  const double dark = brightness_of(picture(state));
+  state.light.point->range = 0.0;
+  EXPECT_GT(brightness_of(picture(state)), 1.5 * dark);
+  EXPECT_EQ(std::get<PointLight>(stage().light()).range, covering_range(over, scene));
+  state.light.sun.kind = LightKind::spot;
+  state.light.spot = SpotLight{over, {0.0, 1.0, 0.0}, 0.5, 1e3};
+  EXPECT_NEAR(brightness_of(picture(state)), dark, 1.0) << "it looks away";
+}
+
+TEST(ViewPicture, that_is_orthographic_keeps_its_surfaces_before_any_far_plane) {
+  State state = hangar();
+  state.height_world = 40.0;
+  state.near_depth = 0.1;
+  state.far_depth = 1e3;
+  const Image near = picture(state);
+  state.far_depth = 1e9;
+  EXPECT_GT(share_equal(near, picture(state), 0, kWidth), 0.97);
 }
 
 }  // namespace
