@@ -45,11 +45,13 @@ namespace gnomon::trace {
   return ray;
 }
 
-/// Distance that rays may go before they leave everything: what the engine's error is stated for.
+/// How far the engine may err along a ray from the point to the light, world units.
 [[nodiscard]] inline double error_of(const Tracer& tracer, const Light& light,
                                      const SurfacePoint& point) noexcept {
-  if (std::holds_alternative<DirectionalLight>(light)) return tracer.error_world();
-  return tracer.error_world(light_ray(light, point.position).distance);
+  const double of_scene = tracer.error_world();
+  if (std::holds_alternative<DirectionalLight>(light)) return of_scene;
+  // Whatever stops a ray lies within the scene, however far behind it the light is.
+  return std::min(tracer.error_world(light_ray(light, point.position).distance), 2.0 * of_scene);
 }
 
 }  // namespace gnomon::trace

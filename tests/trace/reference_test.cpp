@@ -271,5 +271,23 @@ TEST(Reference, texel_axes_are_the_sides_of_a_texel) {
   EXPECT_NEAR(glm::dot(axes.x, kSlant), 0.0, 1e-9);
 }
 
+TEST(Reference, a_light_far_behind_the_scene_has_the_shadow_of_parallel_light) {
+  const Scene scene = render::box_on_ground();
+  const Camera camera = render::camera_on_box(96, 64);
+  const Tracer tracer(scene);
+  const Picture picture = picture_of(tracer, camera);
+  const auto shadow_of = [&](const Light& light) {
+    const SurfacePoints points = surface_points(tracer, camera, light, picture.positions, picture.normals);
+    return hard_reference(tracer, points, light).pixels;
+  };
+  const std::vector<Verdict> parallel = shadow_of(DirectionalLight{kSlant});
+  for (const double distance : {1e7, 1e9, 1e12}) {
+    const std::vector<Verdict> far = shadow_of(PointLight{-distance * kSlant, 2.0 * distance});
+    int different = 0;
+    for (std::size_t i = 0; i < far.size(); ++i) different += far[i] != parallel[i] ? 1 : 0;
+    EXPECT_LE(different, 6) << distance;
+  }
+}
+
 }  // namespace
 }  // namespace gnomon::trace
