@@ -203,13 +203,15 @@ TEST(Page, counts_in_singular_and_plural) {
 
 TEST(Page, names_rows_and_techniques_that_it_dropped) {
   const std::string whole = Reported(sample_rows(2, 3)).page;
-  EXPECT_EQ(count(whole, "Rows were dropped") + count(whole, "Dropped from"), 0u);
+  EXPECT_EQ(count(whole, "note warning") + count(whole, "Dropped from"), 0u);
   TemporaryFolder folder;
   RowsFile(folder.path() / kRowsFile).append(sample_row());
   std::ofstream(folder.path() / kRowsFile, std::ios::app) << "{\"scene\":\"cut";
   std::vector<std::string> warnings;
-  EXPECT_NE(text_of(write_report(folder.path(), &warnings)).find("Rows were dropped: "), std::string::npos);
-  EXPECT_EQ(warnings.size(), 1u);
+  EXPECT_NE(text_of(write_report(folder.path(), &warnings)).find("a row is not whole and was skipped"),
+            std::string::npos);
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[1].find("1 of 1 technique lacks frames"), std::string::npos);
   std::vector<Row> rows = sample_rows(2, 3);
   const Technique first = rows.front().technique;
   std::erase_if(rows, [&](const Row& row) { return row.scene == "scene0" && row.technique == first; });
@@ -345,8 +347,7 @@ TEST(Page, shows_nothing_but_pictures_of_its_own_folder) {
   } kCases[] = {{"link.png", "a link out of its folder"},
                 {"../secret.png", "outside of its folder"},
                 {"text.png", "is not a PNG"},
-                {"/dev/zero", "outside of its folder"},
-                {"none.png", "cannot be read"}};
+                {"/dev/zero", "outside of its folder"}};
   for (const auto& c : kCases) {
     fs::remove(folder.path() / "report" / kRowsFile);
     Row row = sample_row();
@@ -422,6 +423,41 @@ TEST(Entries, without_a_time_have_an_error_and_no_mark) {
   const Reported report(rows);
   EXPECT_NE(report.page.find("theirs / masks"), std::string::npos);
   EXPECT_EQ(count(error_time_chart(summary, 1).standalone(), "theirs / masks"), 0u);
+}
+
+TEST(Page, counts_repeated_rows_once_and_says_so) {
+  std::vector<Row> rows = sample_rows(1, 2), twice = rows;
+  twice.push_back(rows[0]);
+  const TemporaryFolder folder;
+  RowsFile file(folder.path() / kRowsFile);
+  for (const Row& row : twice) file.append(row);
+  std::vector<std::string> lines;
+  (void)write_report(folder.path(), &lines);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0], (folder.path() / kRowsFile).string() + ": 1 row repeated; each counts once");
+  EXPECT_EQ(text_of(folder.path() / "summary.csv"), text_of(Reported(rows).folder.path() / "summary.csv"));
+}
+
+TEST(Page, names_scenes_whose_techniques_lack_frames) {
+  std::vector<Row> rows = sample_rows(2, 3);
+  rows.pop_back();
+  const std::string page = Reported(rows).page;
+  EXPECT_NE(page.find("scene1: 1 of 3 techniques lacks frames ("), std::string::npos);
+  EXPECT_EQ(page.find("scene0: "), std::string::npos);
+}
+
+TEST(Page, stands_without_pictures_that_are_not_there) {
+  std::vector<Row> rows = sample_rows(1, 2);
+  for (Row& row : rows)
+    row.pictures = {"pictures/i.png", "pictures/t.png", "pictures/m.png", "pictures/d.png", "pictures/h.png"};
+  const TemporaryFolder folder;
+  RowsFile file(folder.path() / kRowsFile);
+  for (const Row& row : rows) file.append(row);
+  std::vector<std::string> lines;
+  (void)write_report(folder.path(), &lines);
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0],
+            (folder.path() / kRowsFile).string() + ": pictures/i.png is not there; 4 rows without pictures");
 }
 
 }  // namespace

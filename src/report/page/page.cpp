@@ -11,6 +11,7 @@
 #include "kinds.hpp"
 #include "latex.hpp"
 #include "page_files.hpp"
+#include "rows/row_checks.hpp"
 #include "sections.hpp"
 #include "text.hpp"
 #include "views.hpp"
@@ -44,7 +45,7 @@ std::string opening(const PageInput& input) {
   }
   out += "</p>\n";
   for (const std::string& warning : input.warnings)
-    out += "<p class=\"note dropped\">Rows were dropped: " + escaped(warning) + "</p>\n";
+    out += "<p class=\"note warning\">" + escaped(warning) + "</p>\n";
   out +=
       "<nav><a href=\"#s1\">Error and time</a><a href=\"#s2\">Table</a><a href=\"#s3\">Pictures</a>"
       "<a href=\"#s4\">Camera path</a><a href=\"#s5\">Stability</a><a href=\"#s6\">Omitted work</a>"
@@ -153,10 +154,12 @@ std::filesystem::path write_report(const std::filesystem::path& folder, std::vec
   const bool alone = (std::filesystem::exists(folder / kStabilityFile, ignored) ||
                       std::filesystem::exists(folder / kGpuFolder, ignored)) &&
                      !std::filesystem::exists(folder / kRowsFile, ignored);
-  std::vector<std::string> dropped;
-  PageInput input = page_input(folder, alone ? std::vector<Row>() : read_rows(folder, &dropped));
-  if (warnings != nullptr) warnings->insert(warnings->end(), dropped.begin(), dropped.end());
-  input.warnings = std::move(dropped);
+  std::vector<std::string> lines;
+  std::vector<Row> rows = alone ? std::vector<Row>() : read_rows(folder, &lines);
+  for (std::string& line : check_rows(folder, rows)) lines.push_back(std::move(line));
+  if (warnings != nullptr) warnings->insert(warnings->end(), lines.begin(), lines.end());
+  PageInput input = page_input(folder, std::move(rows));
+  input.warnings = std::move(lines);
   write_charts(input);
   write_text(folder / "summary.csv", summary_csv(input.summary));
   write_text(folder / "fronts.md", front_tables(input.summary));

@@ -23,7 +23,7 @@ struct PageInput {
   Stability stability;
   std::vector<GpuRun> gpus;
   std::size_t start_scene = 0;        ///< which the page shows first
-  std::vector<std::string> warnings;  ///< rows that could not be read
+  std::vector<std::string> warnings;  ///< what of the rows misleads, or could not be read
 };
 
 [[nodiscard]] PageInput page_input(const std::filesystem::path& folder, std::vector<Row> rows);

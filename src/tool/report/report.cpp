@@ -23,9 +23,9 @@ int run_merge(const std::vector<std::string>& folders, const std::string& out, b
   const std::vector<std::filesystem::path> paths(folders.begin(), folders.end());
   std::vector<std::string> warnings;
   const std::size_t rows = report::merge_rows(paths, out, &warnings);
-  print_warnings(warnings);
   const std::string file = (std::filesystem::path(out) / report::kRowsFile).string();
-  const std::string page = report::write_report(out).string();
+  const std::string page = report::write_report(out, &warnings).string();
+  print_warnings(warnings);
   if (json) {
     print_line(nlohmann::json{{"count", rows}, {"rows", file}, {"report", page}}.dump());
   } else {
