@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <stdexcept>
 
 #include "command.hpp"
@@ -309,6 +310,8 @@ int run_program(const Program& program, int argc, char** argv) {
     return complain("interrupted", kInterrupted);
   } catch (const std::runtime_error& error) {  // the world outside: files, cases, pipes
     return complain(error.what(), kBadInput);
+  } catch (const std::bad_alloc&) {
+    return complain("out of memory: a picture, a map or the scene is too large for this machine", kBadInput);
   } catch (const std::exception& error) {
     return complain(std::string("internal fault: ") + error.what(), kInternalFault);
   }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "animation_words.hpp"
+#include "identifier_word.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -89,8 +90,10 @@ std::vector<View> views_of(const std::vector<report::Row>& rows) {
   std::map<std::string, std::size_t> known;
   std::vector<View> views;
   for (const report::Row& row : rows) {
-    if (row.technique.filter.starts_with(kIrregular)) continue;  // no model predicts it: it reads no map
-    if (row.technique.is_given()) continue;                      // planned by others
+    // No model predicts these: they read no map, or other maps.
+    if (row.technique.filter.starts_with(kIrregular) || row.technique.filter.starts_with(kIdentifiers))
+      continue;
+    if (row.technique.is_given()) continue;  // planned by others
     // Its pages follow from the frames before.
     if (const PagePolicy* const policy = find_page_policy(row.technique.pages);
         policy != nullptr && (policy->feedback & kShadowChanged) != 0)

@@ -120,7 +120,7 @@ void print_one_filter(const FiltersRequest& request) {
 /// Settings of these words; "all" stands for every filter as by default.
 std::vector<FilterSettings> read_settings(const std::string& option, const std::vector<std::string>& words) {
   std::vector<FilterSettings> all;
-  for (const std::string& word : words) {
+  for (const std::string& word : split_lists(words)) {
     if (word != "all") {
       all.push_back(filter_word(option, word));
       continue;

@@ -167,15 +167,20 @@ bool beyond_limits(const JudgeRequest& request, const SceneJudgement& result) {
   const auto errors = std::count_if(result.judgement.findings.begin(), result.judgement.findings.end(),
                                     [](const judge::Finding& f) { return !is_waste(f.kind); });
   if (request.max_findings >= 0.0 && static_cast<double>(errors) > request.max_findings) return true;
+  // Of a light that reaches nothing in view nothing is compared; where that holds for all, no limit is kept.
+  bool has_point = false, has_pixel = false;
   for (const judge::LightFigures& light : result.judgement.lights) {
+    has_point |= light.error.samples > 0;
     // Also an error that is no number is beyond a limit.
-    if (request.max_m > 0.0 && !(light.error.p95 <= request.max_m)) return true;
+    if (request.max_m > 0.0 && light.error.samples > 0 && !(light.error.p95 <= request.max_m)) return true;
     const DrawnLightErrors* drawn = result.drawn_of(light);
-    if (request.max_misclassified > 0.0 && drawn != nullptr &&
-        100.0 * drawn->captured.wrong > request.max_misclassified)
+    if (drawn == nullptr) continue;
+    has_pixel |= drawn->pixels > 0;
+    if (request.max_misclassified > 0.0 && 100.0 * drawn->captured.wrong > request.max_misclassified)
       return true;
   }
-  return false;
+  if (request.max_m > 0.0 && !has_point) return true;
+  return request.max_misclassified > 0.0 && !has_pixel;
 }
 
 int run_judge(const JudgeRequest& request) {
@@ -220,12 +225,15 @@ std::function<int()> declare_judge(Arguments& arguments) {
        .completion = Completion::files},
       {.name = "--max-misclassified",
        .target = &request->max_misclassified,
-       .help = "exit with 1 where any light's maps misclassify more percent of the pixels; 0: no limit",
+       .help = "exit with 1 where any light's maps misclassify more percent of the pixels, or no pixel was "
+               "compared; 0: no limit",
        .range = {{0.0, 100.0}},
        .needs = "SCENE"},
       {.name = "--max-m",
        .target = &request->max_m,
-       .help = "exit with 1 where the 95th percentile of m of any light is above this; 0: no limit",
+       .help = "exit with 1 where the 95th percentile of m of any light is above this, or no point was "
+               "compared; 0: "
+               "no limit",
        .range = {{0.0, 1e9}}},
       {.name = "--max-findings",
        .target = &request->max_findings,

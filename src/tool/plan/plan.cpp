@@ -59,12 +59,21 @@ Json planned(const Case& input, const std::string& name) {
   return pages_json(plan, input);
 }
 
+/// Boxes of nothing are what a caller may have; in a file they may be corners in the wrong order.
+void warn_of_empty(const std::vector<Box>& boxes, const std::string& name) {
+  const auto at = std::find_if(boxes.begin(), boxes.end(), [](const Box& box) { return box.empty(); });
+  if (at == boxes.end()) return;
+  warn(name + "[" + std::to_string(at - boxes.begin()) + "]: min is above max, so it is a box of nothing");
+}
+
 /// Prints the plans in the order of the files and lines. Stops at the first bad case, by std::runtime_error
 /// that names it; the plans before it are printed by then.
 int run_plan(const PlanRequest& request) {
   Progress progress("gnomon plan", steps_in_all(request));
   long long steps = 0;
   const auto plan_one = [&](const Case& input, const std::string& name) {
+    warn_of_empty(input.receivers, name + ": receivers");
+    warn_of_empty(input.casters, name + ": casters");
     Json result = planned(input, name);
     if (request.log_perspective) result["logpsm"] = log_perspective_json(input);
     if (request.repeats > 0)

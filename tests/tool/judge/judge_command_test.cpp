@@ -121,6 +121,24 @@ TEST(EngineMaps, a_plan_of_ours_draws_as_well_as_itself) {
             1);
 }
 
+TEST(EngineMaps, within_no_limit_where_nothing_was_compared) {
+  const TemporaryFolder folder;
+  Json c = Json::parse(content_of(capture("three_spot.json"))), two = c;
+  // A second spot that reaches nothing in view takes nothing from what was compared of the first.
+  two["lights"].push_back(c["lights"][0]);
+  two["lights"][1]["position"][1] = 1000.0;
+  two["lights"][1]["direction"] = {0, 1, 0};
+  two["maps"].push_back(c["maps"][0]);
+  two["maps"][1]["light"] = 1;
+  EXPECT_EQ(run_gnomon({"judge", folder.write("two.json", two.dump()), "--max-m", "1000"}).exit_code, 0);
+  // Far above all that is there: another scene, or another unit.
+  c["camera"]["view_from_world"][13] = -1e5;
+  const std::string file = folder.write("c.json", c.dump());
+  EXPECT_EQ(run_gnomon({"judge", file}).exit_code, 0);
+  EXPECT_EQ(run_gnomon({"judge", file, "--max-m", "1000"}).exit_code, 1);
+  EXPECT_EQ(run_gnomon({"judge", file, "builtin:street", "--max-misclassified", "50"}).exit_code, 1);
+}
+
 TEST(EngineMaps, refuses_in_one_line) {
   const TemporaryFolder folder;
   const auto refused = [](const std::vector<std::string>& arguments, const std::string& what) {

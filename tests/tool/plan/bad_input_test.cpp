@@ -146,5 +146,13 @@ TEST(BadInput, after_good_files_leaves_their_plans_printed) {
   EXPECT_EQ(finished.err, "gnomon: " + bad + ": camera: is missing\n");
 }
 
+TEST(BadInput, of_corners_in_the_wrong_order_is_planned_with_a_warning) {
+  json swapped = base_case();
+  std::swap(swapped["casters"][0]["min"], swapped["casters"][0]["max"]);
+  const Finished finished = run_gnomon({"plan", "-"}, swapped.dump());
+  EXPECT_EQ(finished.exit_code, 0);
+  EXPECT_EQ(finished.err, "gnomon: warning: -:1: casters[0]: min is above max, so it is a box of nothing\n");
+}
+
 }  // namespace
 }  // namespace gnomon::test
