@@ -88,7 +88,7 @@ export interface PlanOptions {
   splitPseudoNear?: number;
   splitRange?: 'automatic' | 'receivers' | 'camera';
   splitSelection?: 'view_depth' | 'finest';
-  /** scheme given: seven ascending view depths; Infinity: none. */
+  /** scheme given: seven ascending view depths. The first `cascades - 1` count, and must be finite. */
   splitGiven?: ArrayLike<number>;
   /** Blend band before a cascade, share of the depths before it, 0..1. */
   splitOverlap?: number;
@@ -107,7 +107,7 @@ export interface PlanOptions {
   cadenceFrames?: number;
   cadenceLargestStep?: number;
   cadenceLargestTurn?: number;
-  /** Names of the rules that are on (`names('pruneRules')`); default: those that change no pixel. */
+  /** Names of the rules that are on (`names('pruneRules')`); default: the exact ones, and `light_depths`. */
   prune?: ReadonlyArray<string>;
   /** Kernel radius of the filter, texels; default 1. */
   filterTexels?: number;
@@ -152,7 +152,7 @@ export interface PlanInput extends ViewInput {
   history?: History;
 }
 
-/** One shadow map. For maps of another planner, the first seven fields that have no question mark suffice. */
+/** One shadow map. For maps of another planner, the five fields that have no question mark suffice. */
 export interface ShadowMap {
   clipFromWorld: Matrix4;
   width: number;

@@ -28,7 +28,7 @@ enum class Fit : std::uint8_t {
 [[nodiscard]] bool fit_from_name(std::string_view name, Fit& fit) noexcept;
 
 enum class Partition : std::uint8_t {
-  view_depth,        ///< cascades along the view (split.hpp)
+  view_depth,        ///< cascades along the view
   frustum_faces,     ///< a map for each face of the camera's frustum that the light enters by, or leaves by.
                      ///< Whichever set lowers the objective; up to 5, whatever the number of cascades, and up
                      ///< to kMaxMaps with SplitOptions::face_slices
@@ -96,7 +96,7 @@ enum class MapSelection : std::uint8_t {
 /// Where one cascade ends and the next begins. Directional lights only.
 struct SplitOptions {
   SplitScheme scheme = SplitScheme::automatic;  ///< how depths are divided
-  /// practical: blend of uniform (0) and logarithmic (1) splits; clamped to [0,1], NaN counts as 0.5.
+  /// practical: blend of uniform (0) and logarithmic (1) splits, 0..1.
   double lambda = 0.7;
   /// View depth, world units, from which error counts: nearer surfaces keep their shadow and do not draw
   /// texels towards the eye. Also the first split of SplitScheme::pseudo_near. 0: the near plane itself.
@@ -107,8 +107,8 @@ struct SplitOptions {
   /// with_finite_far.
   SplitRange range = SplitRange::automatic;
   /// given: the cascades - 1 view depths between neighbouring cascades, ascending, world units. They are
-  /// clamped to the depths that are divided; a cascade without any depth left is omitted. Missing ones count
-  /// as the far end.
+  /// clamped to the depths that are divided; a cascade without any depth left is omitted. Those after them
+  /// are not read.
   std::array<double, kMaxMaps - 1> given = endless_splits();
   /// Width of the blend band before a cascade, as a share of the previous cascade's depths, 0..1. The cascade
   /// behind also covers it, with all casters. A wider band hides the step between their texels better and
@@ -469,8 +469,8 @@ struct FilterExtent {
 /// matrix, with room for the motion in between, and needs no drawing: reuse() returns `identical`.
 /// Needs a PlanHistory, a directional light and unmoved bounds. A cascade is planned at once where the camera
 /// moved farther than promised, or its lens, the light or any option changed.
-/// With more than one frame, cascades divide the camera's whole depths, by `practical` in place of
-/// `automatic` and `optimal`. Visible depths and points are then ignored.
+/// With more than one frame, cascades divide the depths where receivers may lie, however the camera turns, by
+/// `practical` in place of `automatic` and `optimal`. Visible points do not move their splits.
 struct CadenceOptions {
   /// Frames from one plan of a cascade to its next, 1..kMaxCadenceFrames. 1, the default: every frame.
   /// Cascades take turns.
@@ -504,7 +504,7 @@ struct PlanOptions {
   CadenceOptions cadence;
   /// How far filter kernels reach.
   FilterExtent filter;
-  /// How far depths are moved off the surface, in texels (bias.hpp).
+  /// How far depths are moved off the surface, in texels.
   BiasOptions bias;
   /// Local lights: distance at which maps begin, over that of the farthest receiver. Read where the scene's
   /// boxes leave it open, as those of a room that holds its light do. In
@@ -515,8 +515,9 @@ struct PlanOptions {
   double light_near_share = 0x1p-10;
   /// Clip space of the matrices in the plan.
   ClipSpace clip_space;
-  /// Work that may be omitted: by default such that no pixel changes. PruneRules::all() adds the bounded
-  /// rules of prune_rules.def: among others, maps shrink to the size that their error bound needs.
+  /// Work that may be omitted. Default: the exact rules of prune_rules.def, and light_depths, by which depths
+  /// are stored more finely. PruneRules::all() adds the other bounded rules: among others, maps shrink to the
+  /// size that their error bound needs.
   PruneRules prune = default_prune_rules();
   /// Equal in all members.
   bool operator==(const PlanOptions&) const = default;

@@ -30,7 +30,7 @@ struct SnapKey {
   std::int64_t x = 0, y = 0;                   ///< texels
   std::int64_t depth_near = 0, depth_far = 0;  ///< depth steps
   double texel = 0.0;                          ///< side of the grid's squares, world units
-  bool valid = false;                          ///< false for Fit::tight
+  bool valid = false;                          ///< true for Fit::stable, and levels of pages
   /// The same grid: both are valid, and equal in all members. Maps without a grid have none in common.
   friend bool operator==(const SnapKey& a, const SnapKey& b) noexcept {
     return a.valid && b.valid && a.x == b.x && a.y == b.y && a.depth_near == b.depth_near &&

@@ -196,7 +196,7 @@ GNOMON_API int32_t gnomon_light_default(gnomon_light* light, uint32_t size);
 /// for bit.
 typedef struct gnomon_caster_set gnomon_caster_set;
 
-/// Sorts `count` boxes into a new set, which owns a copy of them: about 75 bytes a box. Takes O(count log
+/// Sorts `count` boxes into a new set, which owns a copy of them: about 64 bytes a box. Takes O(count log
 /// count).
 /// `*set` is NULL where the call fails. Empty boxes keep their place, and are never listed.
 GNOMON_API int32_t gnomon_caster_set_create(const double* boxes, int64_t count, gnomon_caster_set** set,
@@ -281,7 +281,8 @@ GNOMON_EXPERIMENTAL int32_t gnomon_depth_tracker_update(gnomon_depth_tracker* tr
 // ---------------------------------------------------------------- options
 
 enum {
-  GNOMON_RANGE_AUTOMATIC = 0,  ///< GNOMON_RANGE_RECEIVERS; for fit stable depths up to the farthest receiver
+  GNOMON_RANGE_AUTOMATIC = 0,  ///< GNOMON_RANGE_RECEIVERS; for fit stable, and cascades with a cadence,
+                               ///< depths up to the farthest receiver
   GNOMON_RANGE_RECEIVERS = 1,  ///< depths that hold receivers in view
   GNOMON_RANGE_CAMERA = 2      ///< all depths of the camera
 };
@@ -291,7 +292,7 @@ enum {
 typedef struct gnomon_plan_options {
   uint32_t size;  ///< set by gnomon_plan_options_default
   /// Maps along the view, 1..GNOMON_MAX_MAPS; default 4. More lower the error far away and cost a pass each.
-  /// Directional lights only: a spot light has one map, a point light up to six.
+  /// Directional lights only: a spot light has one map, a point light or a wide spot light up to six.
   int32_t cascades;
   int32_t resolution_max_size;  ///< texels along each side of each map, 4..16384; default 1024
   /// World sizes per octave that maps of fit stable may have, 1..1024; default 1024. Fewer keep the grid
@@ -300,8 +301,8 @@ typedef struct gnomon_plan_options {
   /// Error m (screen pixels per texel) that suffices; 0, the default: none. Above 0, the plan takes the
   /// fewest cascades and the smallest maps that meet it.
   double resolution_max_error;
-  /// Most texels of all maps together; 0, the default: no budget. Divided so that all maps have the same
-  /// worst error.
+  /// Most texels of all maps together; 0, the default: no budget. By objective picture, divided so that the
+  /// mean error over visible points is least; else, so that all maps have the same worst error.
   int64_t resolution_texel_budget;
   double resolution_prune_error;  ///< error m that prune rule metric_resolution shrinks maps to, >= 1e-9;
                                   ///< default 1
@@ -316,8 +317,9 @@ typedef struct gnomon_plan_options {
   int32_t split_range;       ///< GNOMON_RANGE_AUTOMATIC, the default, and others: which depths are divided
   int32_t
       split_selection;  ///< GNOMON_SELECTIONS: view_depth, the default, or finest; how a point finds its map
-  double split_given[7];      ///< scheme given: ascending view depths between cascades; default infinity
-  double split_overlap;       ///< blend band before a cascade, share of the depths before it, 0..1; default 0
+  double split_given[7];  ///< scheme given: cascades - 1 ascending view depths between cascades, all finite;
+                          ///< default infinity
+  double split_overlap;   ///< blend band before a cascade, share of the depths before it, 0..1; default 0
   int32_t split_partition;    ///< GNOMON_PARTITIONS: how receivers are divided; default view_depth
   int32_t split_face_slices;  ///< partition frustum_faces: most slices of a side face, 1..8; default 1
 
@@ -335,7 +337,7 @@ typedef struct gnomon_plan_options {
 
   /// Frames from one plan of a cascade behind the first to its next, 1..64; default 1. More need a history.
   int32_t cadence_frames;
-  uint32_t prune;               ///< bits of GNOMON_PRUNE_RULES; default: those that change no pixel
+  uint32_t prune;               ///< bits of GNOMON_PRUNE_RULES; default: the exact ones, and light_depths
   double cadence_largest_step;  ///< largest step of the eye from frame to frame, world units, >= 0; default 0
   double cadence_largest_turn;  ///< largest turn of the camera from frame to frame, radians, 0..pi; default 0
 
@@ -495,7 +497,7 @@ GNOMON_API int32_t gnomon_plan_default(gnomon_plan* plan, uint32_t size);
 
 /// State that plans carry from frame to frame. Keep one per camera and light.
 typedef struct gnomon_history gnomon_history;
-/// A new, empty history, or NULL where there is no memory. About 30 kB.
+/// A new, empty history, or NULL where there is no memory. About 20 kB.
 GNOMON_API gnomon_history* gnomon_history_create(void);
 /// Frees the history; NULL does nothing.
 GNOMON_API void gnomon_history_destroy(gnomon_history* history);

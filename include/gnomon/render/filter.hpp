@@ -127,7 +127,7 @@ struct FilterInfo {
   std::string_view summary;                              ///< one line
   std::string_view source;                               ///< paper or book
   MapRead reads = MapRead::depth;                        ///< what the lookup reads
-  FilterClass bias_class = FilterClass::single_compare;  ///< which bias fits (bias.hpp)
+  FilterClass bias_class = FilterClass::single_compare;  ///< which bias fits (study/bias.hpp)
   std::span<const FilterOption> options = {};            ///< of this filter alone
   /// Names of the values behind them that the filter sets for itself (settle, fit_map, adapt). The last may
   /// be the first of several.

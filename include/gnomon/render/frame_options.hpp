@@ -28,7 +28,7 @@ enum class SampleNoise : std::uint8_t {
 };
 
 /// Accumulates the mask over frames by re-projection: hard edges converge to the exact ones where the maps'
-/// grids move from frame to frame (jitter.hpp). A moving view keeps no history where texels and kernel are as
+/// grids move from frame to frame (motion.hpp). A moving view keeps no history where texels and kernel are as
 /// small as a pixel. A pixel's history restarts where the box of a caster that moved shadows it, before or
 /// after the move (move_instance(), apply_pose(), FrameOptions::moved_world). The light must be at rest: set
 /// `restart` in the first frame after it moved, and after a cut.
@@ -72,10 +72,9 @@ struct FrameOptions {
   /// Maps store depths that grow evenly along each ray of the light, under local lights and warps too. They
   /// are z of clip space without the division by w, over its largest in the map. A float then has
   /// the same steps near the light and far from it. Casters write their depth in the fragment shader, which
-  /// takes longer. Maps that bend lines have divided depths where w grows more than 64 times across them. In z
-  /// alone, rounding would show as false shadow there.
-  /// Based on: Brabec, Annen, Seidel, "Practical Shadow Mapping", 2002; Martin, Tan, "Anti-aliasing and
-  /// Continuity with Trapezoidal Shadow Maps", 2004.
+  /// takes longer. Maps that bend lines have divided depths where w grows more than 64 times across them. In
+  /// z alone, rounding would show as false shadow there. Based on: Brabec, Annen, Seidel, "Practical Shadow
+  /// Mapping", 2002; Martin, Tan, "Anti-aliasing and Continuity with Trapezoidal Shadow Maps", 2004.
   bool linear_depth = false;
   /// How maps of a ShadowPlan are drawn. Maps of which only parts are drawn have a pass of their own in any
   /// case. So have maps that are peeled, bend lines, or have linear depths. Pages that are peeled are

@@ -14,8 +14,12 @@ namespace gnomon::report {
 ///   summary.csv         a line per scene and technique,
 ///   frames.csv          a line per row,
 ///   views.csv           medians over views with their intervals, a line per technique,
+///   kinds.csv           the same, a line per kind of scene and technique,
+///   pairs.csv           techniques that differ in one choice, and what it changes,
 ///   budgets.json        the technique of least error for each budget of time, with the machine,
-///   fronts.md           what no other technique beats on each scene, as tables.
+///   fronts.md           what no other technique beats on each scene, as tables,
+///   tables.tex          the same for LaTeX,
+///   method.tex          how it was measured, for LaTeX.
 /// Files that are there already are replaced, each as a whole. A folder with none of them is refused.
 /// Warnings as read_rows. Throws ReportError. Returns the path of the page.
 std::filesystem::path write_report(const std::filesystem::path& folder,

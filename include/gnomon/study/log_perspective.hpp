@@ -46,7 +46,7 @@ struct LogPerspectiveJacobian {
 [[nodiscard]] LogPerspectiveJacobian log_perspective_jacobian(const LogPerspectiveMap& map,
                                                               const glm::dvec3& point_world) noexcept;
 
-/// As measure_perspective() and measure() of metric.hpp, in the same terms and over the same grid.
+/// As measure_perspective() and measure() of measure.hpp, in the same terms and over the same grid.
 [[nodiscard]] PointAliasing measure_perspective(const LogPerspectiveMap& map, const Camera& camera,
                                                 const glm::dvec3& point_world) noexcept;
 [[nodiscard]] AliasingStats measure(const LogPerspectiveMap& map, const Camera& camera,

@@ -214,7 +214,7 @@ std::string compare_footer() {
          "0 uniform .. 1 logarithmic" +
          ".\nPages: " + any_of_text(names_in(all_page_policies())) +
          ": virtual shadow maps of as many texels as the maps beside them, with every filter of --filters "
-         "that reads depths in texels; the others are named and skipped. docs/pages.md explains them." +
+         "that can be drawn on pages; the others are named and skipped. docs/pages.md explains them." +
          "\nLayers: " + any_of_text(layer_names()) +
          ", each with :linear behind it for depths even along the light. gnomon bias and docs/bias.md "
          "compare them." +

@@ -220,8 +220,8 @@ std::vector<int> read_page_sizes(const std::string& option, const Words& words) 
 }
 
 std::vector<std::string> split_names() {
-  return {"auto",    "uniform",       "logarithmic",      "practical",        "pseudo_near",
-          "optimal", "frustum_faces", "separating_plane", "receiver_clusters"};
+  return {"auto",    "uniform",       "logarithmic",      "practical",         "pseudo_near",
+          "optimal", "frustum_faces", "separating_plane", "receiver_clusters", "tetrahedron"};
 }
 
 std::vector<std::string> split_lists(const Words& lists) {

@@ -62,7 +62,7 @@ pub const GNOMON_DIRECTIONAL: i32 = 0;
 pub const GNOMON_SPOT: i32 = 1;
 /// all directions: `position`, `range`
 pub const GNOMON_POINT: i32 = 2;
-/// GNOMON_RANGE_RECEIVERS; for fit stable depths up to the farthest receiver
+/// GNOMON_RANGE_RECEIVERS; for fit stable, and cascades with a cadence, depths up to the farthest receiver
 pub const GNOMON_RANGE_AUTOMATIC: i32 = 0;
 /// depths that hold receivers in view
 pub const GNOMON_RANGE_RECEIVERS: i32 = 1;
@@ -340,7 +340,7 @@ pub struct gnomon_view {
 pub struct gnomon_plan_options {
     /// set by gnomon_plan_options_default
     pub size: u32,
-    /// Maps along the view, 1..GNOMON_MAX_MAPS; default 4. More lower the error far away and cost a pass each. Directional lights only: a spot light has one map, a point light up to six.
+    /// Maps along the view, 1..GNOMON_MAX_MAPS; default 4. More lower the error far away and cost a pass each. Directional lights only: a spot light has one map, a point light or a wide spot light up to six.
     pub cascades: i32,
     /// texels along each side of each map, 4..16384; default 1024
     pub resolution_max_size: i32,
@@ -348,7 +348,7 @@ pub struct gnomon_plan_options {
     pub resolution_stable_size_steps: i32,
     /// Error m (screen pixels per texel) that suffices; 0, the default: none. Above 0, the plan takes the fewest cascades and the smallest maps that meet it.
     pub resolution_max_error: f64,
-    /// Most texels of all maps together; 0, the default: no budget. Divided so that all maps have the same worst error.
+    /// Most texels of all maps together; 0, the default: no budget. By objective picture, divided so that the mean error over visible points is least; else, so that all maps have the same worst error.
     pub resolution_texel_budget: i64,
     /// error m that prune rule metric_resolution shrinks maps to, >= 1e-9; default 1
     pub resolution_prune_error: f64,
@@ -364,7 +364,7 @@ pub struct gnomon_plan_options {
     pub split_range: i32,
     /// GNOMON_SELECTIONS: view_depth, the default, or finest; how a point finds its map
     pub split_selection: i32,
-    /// scheme given: ascending view depths between cascades; default infinity
+    /// scheme given: cascades - 1 ascending view depths between cascades, all finite; default infinity
     pub split_given: [f64; 7],
     /// blend band before a cascade, share of the depths before it, 0..1; default 0
     pub split_overlap: f64,
@@ -388,7 +388,7 @@ pub struct gnomon_plan_options {
     pub warp_planes: [[f64; 7]; 3],
     /// Frames from one plan of a cascade behind the first to its next, 1..64; default 1. More need a history.
     pub cadence_frames: i32,
-    /// bits of GNOMON_PRUNE_RULES; default: those that change no pixel
+    /// bits of GNOMON_PRUNE_RULES; default: the exact ones, and light_depths
     pub prune: u32,
     /// largest step of the eye from frame to frame, world units, >= 0; default 0
     pub cadence_largest_step: f64,
@@ -1097,7 +1097,7 @@ extern "C" {
     pub fn gnomon_texture_from_clip(clip_space: *const gnomon_clip_space, texture_from_clip: *mut f64) -> i32;
     /// Fills in defaults. `size`: sizeof *light. Refuses NULL and sizes that no version had.
     pub fn gnomon_light_default(light: *mut gnomon_light, size: u32) -> i32;
-    /// Sorts `count` boxes into a new set, which owns a copy of them: about 75 bytes a box. Takes O(count log count). `*set` is NULL where the call fails. Empty boxes keep their place, and are never listed.
+    /// Sorts `count` boxes into a new set, which owns a copy of them: about 64 bytes a box. Takes O(count log count). `*set` is NULL where the call fails. Empty boxes keep their place, and are never listed.
     pub fn gnomon_caster_set_create(boxes: *const f64, count: i64, set: *mut *mut gnomon_caster_set, invalid_field: *mut *const c_char) -> i32;
     /// Frees the set; NULL does nothing.
     pub fn gnomon_caster_set_destroy(set: *mut gnomon_caster_set);
@@ -1131,7 +1131,7 @@ extern "C" {
     pub fn gnomon_describe(omission: *const gnomon_omission, text: *mut gnomon_text);
     /// Fills in defaults: no room, no map. `size`: sizeof *plan.
     pub fn gnomon_plan_default(plan: *mut gnomon_plan, size: u32) -> i32;
-    /// A new, empty history, or NULL where there is no memory. About 30 kB.
+    /// A new, empty history, or NULL where there is no memory. About 20 kB.
     pub fn gnomon_history_create() -> *mut gnomon_history;
     /// Frees the history; NULL does nothing.
     pub fn gnomon_history_destroy(history: *mut gnomon_history);

@@ -42,7 +42,7 @@ impl Status {
     }
 }
 
-/// The maps of one light. A plain value of about 13 kB, which owns no memory.
+/// The maps of one light. A plain value of about 15 kB, which owns no memory.
 #[derive(Clone)]
 pub struct Plan {
     // Its pointers are NULL except in a copy that a call takes.
