@@ -447,15 +447,5 @@ TEST(ViewLight, that_reaches_nothing_lights_nothing_and_one_without_range_all) {
   EXPECT_NEAR(brightness_of(picture(state)), dark, 1.0) << "it looks away";
 }
 
-TEST(ViewPicture, that_is_orthographic_keeps_its_surfaces_before_any_far_plane) {
-  State state = hangar();
-  state.height_world = 40.0;
-  state.near_depth = 0.1;
-  state.far_depth = 1e3;
-  const Image near = picture(state);
-  state.far_depth = 1e9;
-  EXPECT_GT(share_equal(near, picture(state), 0, kWidth), 0.97);
-}
-
 }  // namespace
 }  // namespace gnomon::tool::view
