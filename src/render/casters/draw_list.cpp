@@ -3,28 +3,13 @@
 
 #include <algorithm>
 
+#include "casters/view_planes.hpp"
 #include "gnomon/motion.hpp"
 
 namespace gnomon::render {
 namespace {
 
 constexpr GLuint kCopiesBinding = 1;  // as shaders/pass/depth/copy.vert states it
-
-struct ViewPlane {
-  glm::dvec3 normal;
-  double offset;
-};
-
-/// The camera's side planes and its near and far plane, relative to its position, pointing inward.
-std::array<ViewPlane, 6> view_planes(const Camera& camera, const CameraAxes& axes) {
-  const auto side = [&](const glm::dvec3& axis, double edge, double sign) {
-    return camera.orthographic ? ViewPlane{sign * axis, -sign * edge}
-                               : ViewPlane{sign * (axis - edge * axes.forward), 0.0};
-  };
-  return {side(axes.right, camera.left, 1.0),          side(axes.right, camera.right, -1.0),
-          side(axes.up, camera.bottom, 1.0),           side(axes.up, camera.top, -1.0),
-          ViewPlane{axes.forward, -camera.near_depth}, ViewPlane{-axes.forward, camera.far_depth}};
-}
 
 /// What a rectangle of a map shows, a texel wider for rounding; without the rule no planes.
 class PartPlanes {
@@ -48,15 +33,6 @@ class PartPlanes {
   std::array<glm::dvec4, kMaxCullPlanes> planes_{};
   std::size_t count_ = 0;
 };
-
-bool wholly_outside(const Box& box, const glm::dvec3& origin, const ViewPlane& plane) {
-  double reach = plane.offset;
-  for (int c = 0; c < 3; ++c) {
-    const double low = box.min[c] - origin[c], high = box.max[c] - origin[c];
-    reach += std::max(plane.normal[c] * low, plane.normal[c] * high);
-  }
-  return reach < 0.0;
-}
 
 }  // namespace
 

@@ -2,12 +2,14 @@
 #include "gnomon/render/renderer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "casters/view_planes.hpp"
 #include "frame/renderer_impl.hpp"
 #include "gnomon/render/page_filter.hpp"
 
@@ -23,13 +25,18 @@ void GLAD_API_PTR report_gl_error(GLenum, GLenum type, GLuint, GLenum, GLsizei, 
 /// surfaces would leave those few steps of a float.
 Camera between_surfaces(Camera camera, std::span<const Box> casters, std::span<const Box> panes) noexcept {
   if (!camera.orthographic) return camera;
-  const glm::dvec3 forward = camera_axes(camera).forward;
+  const CameraAxes axes = camera_axes(camera);
+  const std::array<ViewPlane, 6> planes = view_planes(camera, axes);
+  const auto beside = [&](const Box& box) {
+    return std::any_of(planes.begin(), planes.begin() + 4,
+                       [&](const ViewPlane& side) { return wholly_outside(box, camera.position, side); });
+  };
   double nearest = camera.far_depth, farthest = camera.near_depth;
   for (const std::span<const Box> boxes : {casters, panes}) {
     for (const Box& box : boxes) {
-      if (box.empty()) continue;
-      const double middle = glm::dot(0.5 * (box.min + box.max) - camera.position, forward);
-      const double half = glm::dot(0.5 * (box.max - box.min), glm::abs(forward));
+      if (box.empty() || beside(box)) continue;
+      const double middle = glm::dot(0.5 * (box.min + box.max) - camera.position, axes.forward);
+      const double half = glm::dot(0.5 * (box.max - box.min), glm::abs(axes.forward));
       nearest = std::min(nearest, middle - half);
       farthest = std::max(farthest, middle + half);
     }
