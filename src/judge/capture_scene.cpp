@@ -1,7 +1,6 @@
 // What stands in the scene of a capture: boxes, visible points, or a picture of depths.
 #include "judge/capture_scene.hpp"
 
-#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "judge/depth_picture.hpp"
@@ -60,17 +59,16 @@ void read_depth_picture(const Fields& frame, const Camera& camera, CapturedScene
   if (picture.depths.size() != pixels)
     fields.refuse("depths", "needs " + std::to_string(pixels) + " numbers, has " +
                                 std::to_string(picture.depths.size()));
-  double nearest = camera.far_depth, farthest = 0.0;
+  bool shows_any = false, sees_any = false;
   for (std::size_t i = 0; i < picture.depths.size(); ++i) {
     const double depth = picture.depths[i];
     if (!(depth >= 0.0))
       throw CaseError(element_path(fields.path_of("depths"), i) +
                       ": must be a depth in front of the camera, or 0 where nothing is");
-    if (depth > 0.0) nearest = std::min(nearest, depth);
-    farthest = std::max(farthest, depth);
+    shows_any |= depth > 0.0;
+    sees_any |= depth >= camera.near_depth && depth <= camera.far_depth;
   }
-  if (farthest > 0.0 && (farthest < camera.near_depth || nearest > camera.far_depth))
-    fields.refuse("depths", "none lies between the camera's planes");
+  if (shows_any && !sees_any) fields.refuse("depths", "none lies between the camera's planes");
   add_points(picture, camera, scene);
 }
 

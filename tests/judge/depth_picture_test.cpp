@@ -63,12 +63,15 @@ TEST(DepthPictures, that_are_half_written_or_of_several_cameras_are_refused) {
 
 TEST(DepthPictures, of_depths_behind_the_camera_or_beyond_its_planes_are_refused) {
   Json c = with_depth_picture(sound("ogre_pssm"));
-  Json behind = c, small = c;
+  Json behind = c;
   behind["depth_picture"]["depths"][7] = -3.0;
   EXPECT_EQ(refusal(behind.dump()),
             "depth_picture.depths[7]: must be a depth in front of the camera, or 0 where nothing is");
-  for (Json& depth : small["depth_picture"]["depths"]) depth = depth.get<double>() * 1e-6;
-  EXPECT_EQ(refusal(small.dump()), "depth_picture.depths: none lies between the camera's planes");
+  for (const double scale : {1e-6, 1e6}) {
+    Json scaled = c;
+    for (Json& depth : scaled["depth_picture"]["depths"]) depth = depth.get<double>() * scale;
+    EXPECT_EQ(refusal(scaled.dump()), "depth_picture.depths: none lies between the camera's planes") << scale;
+  }
   // Nothing but sky is a picture, too.
   for (Json& depth : c["depth_picture"]["depths"]) depth = 0.0;
   EXPECT_EQ(refusal(c.dump()), "taken");

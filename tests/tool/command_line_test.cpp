@@ -3,7 +3,10 @@
 #include <sys/stat.h>
 
 #include <algorithm>
+#include <functional>
+#include <new>
 
+#include "command.hpp"
 #include "plan/cases.hpp"
 #include "process.hpp"
 
@@ -16,6 +19,19 @@ void expect_usage_error(const std::vector<std::string>& arguments) {
   EXPECT_EQ(finished.out, "");
   EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
   EXPECT_EQ(finished.err.find("gnomon: "), 0u) << finished.err;
+}
+
+TEST(CommandLine, says_in_one_line_that_memory_ran_out) {
+  const auto run = [](std::vector<char*>& argv) {
+    const tool::Command commands[] = {{"plan", "", "", [](tool::Arguments&) -> std::function<int()> {
+                                         return []() -> int { throw std::bad_alloc(); };
+                                       }}};
+    return tool::run_program({"gnomon", "", commands}, static_cast<int>(argv.size()) - 1, argv.data());
+  };
+  const Finished finished = run_process({"plan"}, "", {}, run);
+  EXPECT_EQ(finished.exit_code, 2);
+  EXPECT_EQ(finished.err.find("gnomon: out of memory: "), 0u) << finished.err;
+  EXPECT_EQ(std::count(finished.err.begin(), finished.err.end(), '\n'), 1) << finished.err;
 }
 
 TEST(CommandLine, help_lists_the_subcommands) {

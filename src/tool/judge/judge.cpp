@@ -167,7 +167,7 @@ bool beyond_limits(const JudgeRequest& request, const SceneJudgement& result) {
   const auto errors = std::count_if(result.judgement.findings.begin(), result.judgement.findings.end(),
                                     [](const judge::Finding& f) { return !is_waste(f.kind); });
   if (request.max_findings >= 0.0 && static_cast<double>(errors) > request.max_findings) return true;
-  // Of a light that reaches nothing in view nothing is compared; where that holds for all, no limit is kept.
+  // A light may reach nothing in view. Where no light has anything to compare, no limit holds.
   bool has_point = false, has_pixel = false;
   for (const judge::LightFigures& light : result.judgement.lights) {
     has_point |= light.error.samples > 0;
@@ -232,8 +232,7 @@ std::function<int()> declare_judge(Arguments& arguments) {
       {.name = "--max-m",
        .target = &request->max_m,
        .help = "exit with 1 where the 95th percentile of m of any light is above this, or no point was "
-               "compared; 0: "
-               "no limit",
+               "compared; 0: no limit",
        .range = {{0.0, 1e9}}},
       {.name = "--max-findings",
        .target = &request->max_findings,

@@ -59,11 +59,11 @@ Json planned(const Case& input, const std::string& name) {
   return pages_json(plan, input);
 }
 
-/// Boxes of nothing are what a caller may have; in a file they may be corners in the wrong order.
+/// A file may hold an empty box on purpose, or its corners in the wrong order.
 void warn_of_empty(const std::vector<Box>& boxes, const std::string& name) {
   const auto at = std::find_if(boxes.begin(), boxes.end(), [](const Box& box) { return box.empty(); });
   if (at == boxes.end()) return;
-  warn(name + "[" + std::to_string(at - boxes.begin()) + "]: min is above max, so it is a box of nothing");
+  warn(name + "[" + std::to_string(at - boxes.begin()) + "]: min is above max, so the box is empty");
 }
 
 /// Prints the plans in the order of the files and lines. Stops at the first bad case, by std::runtime_error

@@ -113,6 +113,15 @@ TEST(Picks, frames_of_a_flight_need_the_same_techniques) {
   EXPECT_THROW((void)tool::picks_of({&views[0], &views[1]}, some_model()), std::runtime_error);
 }
 
+TEST(Picks, rows_that_no_model_predicts_are_not_of_a_view) {
+  report::Row row = report::read_rows(whole()).front();
+  EXPECT_EQ(tool::views_of({row}).size(), 1u);
+  for (const char* filter : {"irregular", "irregular:samples=8", "identifiers", "identifiers:of=triangle"}) {
+    row.technique.filter = filter;
+    EXPECT_TRUE(tool::views_of({row}).empty()) << filter;
+  }
+}
+
 TEST(Picks, pages_are_picked_where_they_cost_less) {
   const TemporaryFolder folder;
   const Finished swept = run_gnomon({"compare",     "builtin:hangar",

@@ -151,7 +151,7 @@ TEST(BadInput, of_corners_in_the_wrong_order_is_planned_with_a_warning) {
   std::swap(swapped["casters"][0]["min"], swapped["casters"][0]["max"]);
   const Finished finished = run_gnomon({"plan", "-"}, swapped.dump());
   EXPECT_EQ(finished.exit_code, 0);
-  EXPECT_EQ(finished.err, "gnomon: warning: -:1: casters[0]: min is above max, so it is a box of nothing\n");
+  EXPECT_EQ(finished.err, "gnomon: warning: -:1: casters[0]: min is above max, so the box is empty\n");
 }
 
 }  // namespace
