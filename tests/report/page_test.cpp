@@ -426,16 +426,14 @@ TEST(Entries, without_a_time_have_an_error_and_no_mark) {
 }
 
 TEST(Page, counts_repeated_rows_once_and_says_so) {
-  std::vector<Row> rows = sample_rows(1, 2), twice = rows;
-  twice.push_back(rows[0]);
-  const TemporaryFolder folder;
-  RowsFile file(folder.path() / kRowsFile);
-  for (const Row& row : twice) file.append(row);
-  std::vector<std::string> lines;
-  (void)write_report(folder.path(), &lines);
-  ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0], (folder.path() / kRowsFile).string() + ": 1 row repeated; each counts once");
-  EXPECT_EQ(text_of(folder.path() / "summary.csv"), text_of(Reported(rows).folder.path() / "summary.csv"));
+  std::vector<Row> rows = sample_rows(1, 2);
+  const Reported once(rows);
+  rows.push_back(rows[0]);
+  const Reported twice(rows);
+  EXPECT_TRUE(once.warnings.empty());
+  ASSERT_EQ(twice.warnings.size(), 1u);
+  EXPECT_NE(twice.warnings[0].find("results.jsonl: 1 row repeated; each counts once"), std::string::npos);
+  EXPECT_EQ(text_of(twice.folder.path() / "summary.csv"), text_of(once.folder.path() / "summary.csv"));
 }
 
 TEST(Page, names_scenes_whose_techniques_lack_frames) {
@@ -450,14 +448,11 @@ TEST(Page, stands_without_pictures_that_are_not_there) {
   std::vector<Row> rows = sample_rows(1, 2);
   for (Row& row : rows)
     row.pictures = {"pictures/i.png", "pictures/t.png", "pictures/m.png", "pictures/d.png", "pictures/h.png"};
-  const TemporaryFolder folder;
-  RowsFile file(folder.path() / kRowsFile);
-  for (const Row& row : rows) file.append(row);
-  std::vector<std::string> lines;
-  (void)write_report(folder.path(), &lines);
-  ASSERT_EQ(lines.size(), 1u);
-  EXPECT_EQ(lines[0],
-            (folder.path() / kRowsFile).string() + ": pictures/i.png is not there; 4 rows without pictures");
+  const Reported reported(rows);
+  ASSERT_EQ(reported.warnings.size(), 1u);
+  EXPECT_NE(reported.warnings[0].find("pictures/i.png is not there; 4 rows without pictures"),
+            std::string::npos);
+  EXPECT_EQ(count(reported.page, "<img"), count(Reported(sample_rows(1, 2)).page, "<img"));
 }
 
 }  // namespace

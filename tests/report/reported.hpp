@@ -16,10 +16,11 @@ class Reported {
   explicit Reported(const std::vector<Row>& rows) {
     RowsFile file(folder.path() / kRowsFile);
     for (const Row& row : rows) file.append(row);
-    page = text_of(write_report(folder.path()));
+    page = text_of(write_report(folder.path(), &warnings));
   }
   TemporaryFolder folder;
   std::string page;
+  std::vector<std::string> warnings;
 };
 
 }  // namespace gnomon::report

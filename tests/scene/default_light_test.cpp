@@ -65,7 +65,6 @@ TEST(DefaultLight, local_lights_are_even_over_the_ground_and_reach_each_part_of_
   EXPECT_GT(least_apart, 0.25 * std::sqrt(size.x * size.z / 9)) << "no two in one place";
 }
 
-}  // namespace
 TEST(DefaultLight, a_covering_range_reaches_every_corner_from_the_light) {
   for (const glm::dvec3& from : {glm::dvec3(0.0), glm::dvec3(1e4, 0.0, 0.0), kScene.max}) {
     const double range = covering_range(from, kScene);
@@ -74,4 +73,5 @@ TEST(DefaultLight, a_covering_range_reaches_every_corner_from_the_light) {
   EXPECT_EQ(covering_range({3, 4, 5}, {}), 1.0) << "nothing to reach";
 }
 
+}  // namespace
 }  // namespace gnomon::test

@@ -21,7 +21,8 @@ namespace gnomon::report {
 ///   tables.tex          the same for LaTeX,
 ///   method.tex          how it was measured, for LaTeX.
 /// Files that are there already are replaced, each as a whole. A folder with none of them is refused.
-/// Warnings as read_rows. Throws ReportError. Returns the path of the page.
+/// Warnings are those of read_rows, and lines about repeated rows, missing frames and absent pictures. Throws
+/// ReportError. Returns the path of the page.
 std::filesystem::path write_report(const std::filesystem::path& folder,
                                    std::vector<std::string>* warnings = nullptr);
 

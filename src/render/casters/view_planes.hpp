@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <glm/vec3.hpp>
 
 #include "gnomon/bounds.hpp"
@@ -14,6 +15,8 @@ struct ViewPlane {
   glm::dvec3 normal;
   double offset;
 };
+
+inline constexpr std::size_t kViewSides = 4;  ///< of view_planes(), which come first
 
 /// The camera's side planes and its near and far plane, relative to its position, pointing inward.
 [[nodiscard]] inline std::array<ViewPlane, 6> view_planes(const Camera& camera,

@@ -28,7 +28,7 @@ Camera between_surfaces(Camera camera, std::span<const Box> casters, std::span<c
   const CameraAxes axes = camera_axes(camera);
   const std::array<ViewPlane, 6> planes = view_planes(camera, axes);
   const auto beside = [&](const Box& box) {
-    return std::any_of(planes.begin(), planes.begin() + 4,
+    return std::any_of(planes.begin(), planes.begin() + kViewSides,
                        [&](const ViewPlane& side) { return wholly_outside(box, camera.position, side); });
   };
   double nearest = camera.far_depth, farthest = camera.near_depth;

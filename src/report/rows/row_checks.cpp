@@ -1,3 +1,4 @@
+// Repeated rows, absent pictures and missing frames, found by what rows say of themselves.
 #include "rows/row_checks.hpp"
 
 #include <algorithm>

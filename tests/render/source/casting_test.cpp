@@ -221,21 +221,26 @@ TEST_F(Casting, an_orthographic_camera_has_the_shadows_of_exact_rays_by_every_so
   }
 }
 
-TEST_F(Casting, an_orthographic_camera_sees_the_same_surfaces_before_any_far_plane) {
-  const Scene scene = board_over_box();
-  const auto seen = [&scene](double far_depth) {
+TEST_F(Casting, an_orthographic_camera_sees_the_same_surfaces_before_any_far_plane_and_beside_any_stray) {
+  const auto seen = [](const Scene& scene, double far_depth) {
     const Camera camera = orthographic_camera({6.0, 9.0, 8.0}, {-0.6, -0.8, -0.8}, {0, 1, 0}, 9.0, 1.0, 0.5,
                                               far_depth, kSize, kSize);
     Renderer renderer(scene);
     renderer.draw(plan_of(scene, camera), camera, renderer.prepare(filters::hard), mask_only());
     return Frame{camera, {}, renderer.mask(), renderer.positions(), renderer.normals()};
   };
-  const Frame near = seen(40.0), far = seen(1e9);
-  std::size_t other = 0;
-  for (std::size_t i = 0; i < near.pixels(); ++i)
-    other += near.surface(i) != far.surface(i) ||
-             (near.surface(i) && glm::distance(near.point(i), far.point(i)) > 1e-3);
-  EXPECT_LE(other, 2u);
+  const Scene scene = board_over_box();
+  Scene strayed = scene;
+  strayed.instances.push_back(shifted(scene.instances[kBox], {1e8, 0.0, -1e8}));  // beside the picture
+  strayed.bounds_world.extend(strayed.instances.back().bounds_world);
+  const Frame near = seen(scene, 40.0);
+  for (const Frame& far : {seen(scene, 1e9), seen(strayed, 1e10)}) {
+    std::size_t other = 0;
+    for (std::size_t i = 0; i < near.pixels(); ++i)
+      other += near.surface(i) != far.surface(i) ||
+               (near.surface(i) && glm::distance(near.point(i), far.point(i)) > 1e-3);
+    EXPECT_LE(other, 2u);
+  }
 }
 
 TEST_F(Casting, no_ray_of_a_soft_reference_stops_at_what_does_not_cast) {
