@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, call, expect, make, whole
+from ._call import GnomonError, array_of, call, expect, make, whole
 from ._pages import PagePlan
 from ._records import Camera, Plan
 
@@ -33,7 +33,7 @@ def _picture(camera: Camera, **pixels: ArrayLike | None) -> Any:
     for name, values in pixels.items():
         if values is None:
             continue
-        array = np.ascontiguousarray(values, dtype=np.float32)
+        array = array_of(values, "shadow_picture." + name, np.float32)
         expected = (*shape, 3) if name == "normals" else shape
         if array.shape != expected:
             raise GnomonError("shadow_picture." + name, "shadow_picture.%s: expected the shape of the camera's picture, %r"

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import GnomonError, boxes_of, call, expect, fields_of, make, planes_of, points_of, set_fields, set_options, whole
+from ._call import GnomonError, array_of, boxes_of, call, expect, fields_of, make, planes_of, points_of, set_fields, set_options, whole
 from ._pages import PagePlan
 from ._records import (Boxes, Camera, CasterSet, History, Input, Light, Map, PageStats, Plan, Stats, VisibleDepths,
                        directional, omissions_of, perspective, plan_struct)
@@ -119,7 +119,7 @@ def measure_points(map: Map, camera: Camera, points: ArrayLike, normals: Optiona
 
 def select(plan: Plan, points: ArrayLike, view_depths: ArrayLike) -> NDArray[np.int32]:
     """Index of the map that serves each point, or -1: lit. points: (n, 3) world space. view_depths: (n,) world units."""
-    array, depths = points_of(points, "points"), np.ascontiguousarray(view_depths, dtype=np.float64)
+    array, depths = points_of(points, "points"), array_of(view_depths, "view_depths", np.float64)
     if depths.shape != (len(array),):
         raise GnomonError("view_depths", "view_depths: expected one for each point")
     indices = np.empty(len(array), dtype=np.int32)

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _layout as c
-from ._call import (GnomonError, Handle, boxes_of, call, expect, fields_of, find, lib, make, name_of, numbers_of, points_of,
-                    set_fields, whole)
+from ._call import (GnomonError, Handle, array_of, boxes_of, call, expect, fields_of, find, lib, make, name_of, numbers_of,
+                    points_of, set_fields, whole)
 
 Camera = c.camera
 Light = c.light
@@ -61,7 +61,7 @@ def camera_from(view_from_world: ArrayLike, clip_from_view: ArrayLike, *, width:
 
 def columns_of(matrix: ArrayLike, name: str) -> NDArray[np.float64]:
     """A matrix column by column, as C takes it."""
-    array = np.asarray(matrix, dtype=np.float64)
+    array = array_of(matrix, name, np.float64)
     if array.shape != (4, 4):
         raise GnomonError(name, "%s: expected the shape (4, 4)" % name)
     return np.ascontiguousarray(array.T)
@@ -196,7 +196,7 @@ class VisibleDepths:
 
     def add(self, view_depths: ArrayLike) -> None:
         """Counts the depths of more pixels."""
-        array = np.ascontiguousarray(view_depths, dtype=np.float32)
+        array = array_of(view_depths, "view_depths", np.float32)
         call("gnomon_visible_depths_add", self._struct, array.ctypes.data, array.size)
 
     @property
