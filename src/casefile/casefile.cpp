@@ -324,7 +324,12 @@ Case load_case(const std::filesystem::path& file) {
 }
 
 PlanOptions read_plan_options(std::string_view json_text) {
-  return options_from(parse_json(json_text));
+  const json options = parse_json(json_text);
+  for (const char* const of_cases : {"pages", "lights"}) {
+    if (options.is_object() && options.contains(of_cases))
+      throw CaseError(std::string("options.") + of_cases + ": is only read in a case");
+  }
+  return options_from(options);
 }
 
 std::string invalid_input_text(std::string_view invalid_field) {

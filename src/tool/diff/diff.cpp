@@ -19,7 +19,6 @@ namespace {
 
 // As other comparers of images grade them, with 2 left for bad input as in every command.
 constexpr int kSame = 0, kWithinAllowance = 1, kDifferent = 3, kOtherSize = 4;
-constexpr std::size_t kColors = 3;  // alpha is not compared: pictures of this program have none
 
 struct DiffRequest {
   std::string first, second;
@@ -40,16 +39,22 @@ Image load_picture(const std::string& file) {
 
 struct Difference {
   std::size_t pixels = 0, differing = 0;  ///< by more than the tolerance
-  int largest = 0;                        ///< steps of 8 bits, over all colours
-  double rms = 0.0;                       ///< the same, over all colours of all pixels
+  int largest = 0;                        ///< steps of 8 bits, over all channels
+  double rms = 0.0;                       ///< the same, over all channels of all pixels
   int x = 0, y = 0;                       ///< of the pixel with the largest
   Image picture;                          ///< grey: alike; from yellow to red: the larger the difference
 };
 
-/// Steps by which the pixel's colours differ at most.
+bool is_opaque(const Image& image) {
+  for (std::size_t i = 3; i < image.rgba.size(); i += 4)
+    if (image.rgba[i] != 255) return false;
+  return true;
+}
+
+/// Steps by which the pixel's channels differ at most.
 int largest_step(const std::uint8_t* a, const std::uint8_t* b) {
   int largest = 0;
-  for (std::size_t c = 0; c < kColors; ++c) largest = std::max(largest, std::abs(int{a[c]} - int{b[c]}));
+  for (std::size_t c = 0; c < 4; ++c) largest = std::max(largest, std::abs(int{a[c]} - int{b[c]}));
   return largest;
 }
 
@@ -67,11 +72,13 @@ Difference difference_of(const Image& a, const Image& b, int tolerance) {
   Difference d;
   d.pixels = a.rgba.size() / 4;
   d.picture = a;
+  // Alpha counts where a picture has any: those of --shadow-only have nothing else.
+  const std::size_t channels = is_opaque(a) && is_opaque(b) ? 3 : 4;
   double sum = 0.0;
   for (std::size_t i = 0; i < d.pixels; ++i) {
     const std::uint8_t *p = &a.rgba[4 * i], *q = &b.rgba[4 * i];
     const int step = largest_step(p, q);
-    for (std::size_t c = 0; c < kColors; ++c) {
+    for (std::size_t c = 0; c < channels; ++c) {
       const double off = static_cast<double>(p[c]) - static_cast<double>(q[c]);
       sum += off * off;
     }
@@ -84,7 +91,7 @@ Difference difference_of(const Image& a, const Image& b, int tolerance) {
     const std::array<std::uint8_t, 4> color = shown(p, step, tolerance);
     std::copy(color.begin(), color.end(), d.picture.rgba.begin() + static_cast<std::ptrdiff_t>(4 * i));
   }
-  d.rms = d.pixels > 0 ? std::sqrt(sum / static_cast<double>(kColors * d.pixels)) : 0.0;
+  d.rms = d.pixels > 0 ? std::sqrt(sum / static_cast<double>(channels * d.pixels)) : 0.0;
   return d;
 }
 
@@ -148,7 +155,7 @@ std::function<int()> declare_diff(Arguments& arguments) {
        .completion = Completion::files},
       {.name = "--tolerance",
        .target = &request->tolerance,
-       .help = "largest difference of a colour channel that is ignored, steps of 1/255",
+       .help = "largest difference of a channel, alpha included, that is ignored, steps of 1/255",
        .range = {{0, 255}}},
       {.name = "--allow-percent",
        .target = &request->allowed,

@@ -270,7 +270,8 @@ std::vector<Option> filter_options(Request& request) {
        .target = &options.blocker_distance,
        .help =
            "distance from receiver to caster that pcss is sized for, world units; 0: half the scene's height",
-       .range = {{0.0, 1e12}}}};
+       .range = {{0.0, 1e12}},
+       .needs = "--resolution"}};
 }
 
 std::vector<Option> page_options(Request& request) {

@@ -1,9 +1,12 @@
 // `gnomon diff`: its verdict on two pictures is its exit code.
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "gnomon/scene/image.hpp"
 #include "process.hpp"
@@ -16,12 +19,14 @@ Image grey(int width, int height) {
   image.width = width;
   image.height = height;
   image.rgba.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4, 128);
+  for (std::size_t alpha = 3; alpha < image.rgba.size(); alpha += 4) image.rgba[alpha] = 255;
   return image;
 }
 
 std::string saved(const TemporaryFolder& folder, const std::string& name, const Image& image) {
   const std::filesystem::path file = folder.path() / name;
-  write_png(image, file);
+  const std::vector<std::uint8_t> bytes = encode_png(image);
+  std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), std::ssize(bytes));
   return file.string();
 }
 
@@ -42,6 +47,19 @@ TEST(Diff, grades_by_how_many_pixels_differ) {
   EXPECT_EQ(found["largest_at"], nlohmann::json({3, 2}));
   // One of 300 colours is off by 10: the root of 100 / 300.
   EXPECT_NEAR(found["rms"].get<double>(), 0.57735, 1e-4);
+}
+
+TEST(Diff, pictures_that_differ_in_what_they_cover_are_different) {
+  const TemporaryFolder folder;
+  Image other = grey(10, 10);
+  other.rgba[4 * 23 + 3] = 155;
+  const std::string a = saved(folder, "a.png", grey(10, 10)), b = saved(folder, "b.png", other);
+  const Finished finished = run_gnomon({"diff", a, b, "--json"});
+  EXPECT_EQ(finished.exit_code, 3);
+  const nlohmann::json found = nlohmann::json::parse(finished.out);
+  EXPECT_EQ(found["largest"], 100);
+  EXPECT_EQ(found["largest_at"], nlohmann::json({3, 2}));
+  EXPECT_NEAR(found["rms"].get<double>(), 5.0, 1e-9);  // the root of 100^2 over 400 channels
 }
 
 TEST(Diff, says_that_sizes_differ) {

@@ -28,6 +28,7 @@ TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
       {"--resolution perceptual --filter hard:radius=1,unit=world", "hard"},
       {"--resolution perceptual --filter pcf:radius=0.000001,unit=world", "widen the kernel"},
       {"--blocker-distance nan", "--blocker-distance"},
+      {"--blocker-distance 5 --filter pcss", "--blocker-distance requires --resolution"},
       {"--budget-ms 5", "--cost-model"},
       {"--budget-ms 5 --cost-model no_such_model.json", "no_such_model.json"},
       {"--target-error nan", "--target-error"},
