@@ -1,6 +1,6 @@
 // Do warps, splits, fits and partitions keep their promises on random cases? Never worse than uniform in the
-// chosen objective, nothing that is no number, no singular matrix, every visible receiver inside its map, no
-// caster lost.
+// chosen objective, nothing that is no number, no singular matrix, no mirror image, every visible receiver
+// inside its map, no caster lost.
 //   random_cases [N [FIRST]]     N seeds from FIRST on, 10 000 from 1 unless given; failures print theirs
 //   random_cases --seeds SEED... these alone
 #include <algorithm>
@@ -56,6 +56,13 @@ void fail(Totals& totals, std::uint64_t seed, const SeededInput& in, const std::
 
 bool finite_and_regular(const glm::dmat4& m) {
   return test::all_finite(m) && test::all_finite(glm::inverse(m));
+}
+
+/// Does the map show what the light sees, and no mirror image of it? Wherever w is above 0.
+bool keeps_winding(const ShadowMap& map, const ClipSpace& space) {
+  bool mirrors = space.reversed_z != space.y_down;
+  if (space.handedness == Handedness::left) mirrors = !mirrors;
+  return (glm::determinant(map.clip_from_world) < 0.0) != mirrors;
 }
 
 /// How far along the ray from `start` the box is crossed, beyond `least`; 0 where it is not.
@@ -149,6 +156,7 @@ void check_case(std::uint64_t seed, SeededInput& in, Totals& totals) {
     if (!finite_and_regular(map.clip_from_world) || !std::isfinite(map.kappa) ||
         !std::isfinite(map.texel_world.x))
       return fail(totals, seed, in, "a singular matrix, or one that is no number");
+    if (!keeps_winding(map, o.clip_space)) return fail(totals, seed, in, "a mirrored map");
   }
   if (!std::holds_alternative<DirectionalLight>(in.light)) return;
   check_points(in, plan, seed, totals);

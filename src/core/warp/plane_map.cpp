@@ -148,8 +148,10 @@ glm::dmat4 clip_from_light(const PlaneMap& map, const LightDepths& depths,
   const auto edge_to_edge = [&](const glm::dvec3& row, double low, double high, double part) {
     return (row - w * (0.5 * (low + high))) * (2.0 * (1.0 - 2.0 * part) / (high - low));
   };
-  const glm::dvec3 row_x = edge_to_edge(across * row_a.x + along * row_a.y, map.a_min, map.a_max, border.x);
+  glm::dvec3 row_x = edge_to_edge(across * row_a.x + along * row_a.y, map.a_min, map.a_max, border.x);
   const glm::dvec3 row_y = edge_to_edge(across * row_b.x + along * row_b.y, map.b_min, map.b_max, border.y);
+  // Rows are found one by one, and may come as a mirror image: front faces would turn into back faces.
+  if (row_a.x * row_b.y < row_a.y * row_b.x) row_x = -row_x;
   const double scale_z = 2.0 / depths.height;
   glm::dmat4 m;
   for (int column = 0; column < 2; ++column) m[column] = {row_x[column], row_y[column], w[column], w[column]};
