@@ -43,7 +43,7 @@ enum class OmissionKind : std::uint8_t {
   face_without_receiver,     ///< of a solid round the light: no visible receiver in it within range and cone
   face_without_caster,       ///< of a solid round the light: no caster between it and its receivers
   resolution_without_gain,   ///< a smaller map meets the requested bound of m; a: bound at full size, b: now
-  depth_near_light,          ///< nearer than a to the light nothing casts shadows; b: number of casters there
+  depth_near_light,          ///< b casters reach below depth a along the map's axis, and cast none there
   option_ignored,            ///< an option that this light or partition has no use for; a: IgnoredOption
   view_without_receiver,     ///< of plan_views: no receiver in view; a: index of the camera
   pages_coarsened,           ///< of plan_pages: the pool is too small; a: requested error, b: planned error

@@ -74,8 +74,8 @@ struct VisibleDepths {
 /// with an empty one and clear it at a cut.
 class DepthTracker {
  public:
-  /// Frames that the nearest and the farthest edge take to move inwards by one bin, at least 1. With 4, a
-  /// visible range that halves is followed within 32 frames.
+  /// Frames that the nearest and the farthest edge take to move inwards by one bin, at least 1. One bin of
+  /// room stays. With 4, a visible range that halves is followed within 32 frames to that bin.
   int frames_per_bin = 4;
   /// Frames for which a depth between them that shows nothing any more still counts, at least 1.
   int hold_frames = 30;

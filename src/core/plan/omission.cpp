@@ -133,7 +133,7 @@ OmissionText describe(const Omission& o) noexcept {
       break;
     case OmissionKind::depth_near_light:
       what("depths near the light, map %d", o.map);
-      why("%.0f casters reach nearer than %g to the light; what is nearer casts no shadow", o.b, o.a);
+      why("%.0f casters reach below depth %g along the map's axis, and cast no shadow there", o.b, o.a);
       break;
     case OmissionKind::view_without_receiver:
       what("camera %.0f", o.a);
