@@ -18,53 +18,14 @@ export function cameraUpTo(gnomon, matrices, far) {
   return found;
 }
 
-// Its slope is the golden ratio: no whole numbers of texels across and along lie near it.
-const TURN = Math.atan((Math.sqrt(5) - 1) / 2);
-// Rasterizers take the larger one of a plane's slopes along both axes for its slope. Turned as above, a plane rises by more.
+// Rasterizers take the larger one of a plane's slopes along both axes for its slope. Grids of fit stable are turned about the sun, and a plane
+// rises along both of their axes.
 const TURNED_SLOPE_TEXELS = 0.45;
 
-/**
- * Turns the grids of a sun's maps of fit stable about the sun, in place. gnomon lays them along an axis of the world: upright edges then lie
- * along texel columns, and a whole edge falls to one side of its texels. A map's side is the longest chord of its slice, whichever way it lies.
- */
-export function turnGrids(gnomon, plan, camera) {
-  const { position, forward, up, orthographic } = camera;
-  // Of left-handed worlds as well: gnomon counts left and right of a camera so.
-  const right = [0, 1, 2].map((i) => forward[(i + 1) % 3] * up[(i + 2) % 3] - forward[(i + 2) % 3] * up[(i + 1) % 3]);
-  const grids = plan.maps.filter(({ snapValid, lightWorld }) => snapValid && lightWorld[3] === 0);
-  if (grids.length > 0) plan.biasSlopeTexels += TURNED_SLOPE_TEXELS;
-  for (const map of grids) {
-    const m = map.clipFromWorld;
-    const [x, y] = [0, 1].map((row) => [m[row], m[4 + row], m[8 + row]]);
-    const axes = [x.map((value, i) => Math.cos(TURN) * value + Math.sin(TURN) * y[i]), y.map((value, i) => Math.cos(TURN) * value - Math.sin(TURN) * x[i])];
-    const [low, high] = [[Infinity, Infinity], [-Infinity, -Infinity]];
-    for (const depth of [map.depthBegin - map.overlap, map.depthEnd]) {
-      const reach = orthographic ? 1 : depth;
-      for (const across of [camera.left, camera.right]) {
-        for (const along of [camera.bottom, camera.top]) {
-          const corner = [0, 1, 2].map((i) => position[i] + depth * forward[i] + reach * (across * right[i] + along * up[i]));
-          axes.forEach((axis, k) => {
-            const at = axis[0] * corner[0] + axis[1] * corner[1] + axis[2] * corner[2];
-            low[k] = Math.min(low[k], at);
-            high[k] = Math.max(high[k], at);
-          });
-        }
-      }
-    }
-    const turned = [...m];
-    axes.forEach((axis, k) => {
-      const texel = 2 / (k === 0 ? map.width : map.height);
-      axis.forEach((value, i) => { turned[4 * i + k] = value; });
-      turned[12 + k] = -Math.round((0.5 * (low[k] + high[k])) / texel) * texel;
-    });
-    Object.assign(map, gnomon.rebased({ ...map, clipFromWorld: turned, snapValid: false }, plan.origin));
-  }
-}
-
-/** A plan whose grids of fit stable are turned. */
-export function planTurned(gnomon, input) {
+/** A plan, with the slope that a rasterizer takes for too little. */
+export function planForRasterizer(gnomon, input) {
   const plan = gnomon.plan(input);
-  if (input.options.fit === 'stable') turnGrids(gnomon, plan, input.camera);
+  if (plan.maps.some(({ snapValid, lightWorld }) => snapValid && lightWorld[3] === 0)) plan.biasSlopeTexels += TURNED_SLOPE_TEXELS;
   return plan;
 }
 

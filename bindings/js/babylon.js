@@ -3,7 +3,7 @@
 import { CascadedShadowGenerator } from '@babylonjs/core/Lights/Shadows/cascadedShadowGenerator.js';
 import { ShadowGenerator } from '@babylonjs/core/Lights/Shadows/shadowGenerator.js';
 import { Matrix } from '@babylonjs/core/Maths/math.vector.js';
-import { FollowedBounds, cameraUpTo, loaded, planTurned, withDefaults } from './adapter.js';
+import { FollowedBounds, cameraUpTo, loaded, planForRasterizer, withDefaults } from './adapter.js';
 import { GnomonError } from './memory.js';
 
 const DIRECTIONAL = 1;
@@ -119,7 +119,7 @@ class Planner {
     // Other filters than PCF read depths that are not divided by w.
     const warps = generator.filter === ShadowGenerator.FILTER_PCF;
     const { width, height } = generator.getShadowMap().getSize();
-    this.plan = planTurned(gnomon, {
+    this.plan = planForRasterizer(gnomon, {
       camera: cameraOf(gnomon, camera, far),
       light: { direction: generator.light.getShadowDirection(0).asArray() },
       casters: bounds.casters,

@@ -107,7 +107,7 @@ export interface PlanOptions {
   cadenceFrames?: number;
   cadenceLargestStep?: number;
   cadenceLargestTurn?: number;
-  /** Names of the rules that are on (`names('pruneRules')`); default: the exact ones, and `light_depths`. */
+  /** Names of the rules that are on (`names('pruneRules')`); default: the exact ones, `light_depths` and `equal_cascades`. */
   prune?: ReadonlyArray<string>;
   /** Kernel radius of the filter, texels; default 1. */
   filterTexels?: number;
@@ -191,7 +191,7 @@ export interface ShadowMap {
   snapY?: number;
   snapDepthNear?: number;
   snapDepthFar?: number;
-  snapTexel?: number;
+  snapTexel?: ArrayLike<number>;
   mSMax?: number;
   mTMax?: number;
   /** Bound of the error in any direction, screen pixels per texel. */

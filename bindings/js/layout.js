@@ -125,7 +125,7 @@ export const structs = {
     },
   },
   map: {
-    bytes: 1704,
+    bytes: 1712,
     fields: {
       size: [0, 'u32', 0],
       cascade: [4, 'i32', 0],
@@ -157,11 +157,11 @@ export const structs = {
       snap_y: [1640, 'i64', 0],
       snap_depth_near: [1648, 'i64', 0],
       snap_depth_far: [1656, 'i64', 0],
-      snap_texel: [1664, 'f64', 0],
-      m_s_max: [1672, 'f64', 0],
-      m_t_max: [1680, 'f64', 0],
-      m_max: [1688, 'f64', 0],
-      storage: [1696, 'f64', 0],
+      snap_texel: [1664, 'f64', 2],
+      m_s_max: [1680, 'f64', 0],
+      m_t_max: [1688, 'f64', 0],
+      m_max: [1696, 'f64', 0],
+      storage: [1704, 'f64', 0],
     },
   },
   omission: {
@@ -559,6 +559,7 @@ export const constants = {
   CASCADE_ON_PLANES: 21,
   FACES_LESS_DIVIDED: 22,
   RECEIVER_NEAR_LIGHT: 23,
+  CASCADE_WITHOUT_GAIN: 24,
   IGNORED_PARTITION: 0,
   IGNORED_SPLIT_SCHEME: 1,
   IGNORED_SPLIT_OVERLAP: 2,

@@ -1,7 +1,7 @@
 // gnomon's shadow maps in PlayCanvas (2.23 and newer): the cascades of a directional light. Shaders, filters, materials and the
 // drawing of casters are PlayCanvas' own; the shadow cameras, splits and biases are gnomon's.
 import { LIGHTTYPE_DIRECTIONAL, Mat4, Quat, Vec3, shadowTypeInfo, version } from 'playcanvas';
-import { FollowedBounds, cameraUpTo, loaded, planTurned, withDefaults } from './adapter.js';
+import { FollowedBounds, cameraUpTo, loaded, planForRasterizer, withDefaults } from './adapter.js';
 import { GnomonError } from './memory.js';
 
 const basis = /*@__PURE__*/ new Mat4();
@@ -161,7 +161,7 @@ export class GnomonCascades {
     const { gnomon, light, bounds } = this;
     bounds.update(light, comp.layerList);
     const { x, y, z } = light._node.getWorldTransform().getY();  // a light shines down its -y
-    this.plan = planTurned(gnomon, {
+    this.plan = planForRasterizer(gnomon, {
       camera: cameraOf(gnomon, camera, light.shadowDistance),
       light: { direction: [-x, -y, -z] },
       casters: bounds.casters,

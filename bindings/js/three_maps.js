@@ -1,6 +1,6 @@
 // What do the shadows of three.js share? Boxes of a scene, cameras, biases, and the plan of a light.
 import { BackSide, Box3, FrontSide, Matrix4, WebGPUCoordinateSystem } from 'three';
-import { FollowedBounds, cameraUpTo, loaded, planTurned, withDefaults } from './adapter.js';
+import { FollowedBounds, cameraUpTo, loaded, planForRasterizer, withDefaults } from './adapter.js';
 
 /**
  * Boxes of the meshes below an object that cast and receive shadows. follow() takes their places, each frame; update() gathers them
@@ -130,7 +130,7 @@ export function planFor({ gnomon, bounds, history, options, resolution }, light,
   bounds.follow();
   const { casters, receivers } = bounds;
   const view = { camera: cameraOf(gnomon, camera, resolution, far), casters, receivers };
-  return planTurned(gnomon, { ...view, light, options: { ...options, ...more }, history });
+  return planForRasterizer(gnomon, { ...view, light, options: { ...options, ...more }, history });
 }
 export function end({ history, bounds, ownsBounds }) {
   history?.dispose();

@@ -16,10 +16,12 @@
 namespace gnomon {
 
 enum class Fit : std::uint8_t {
-  tight,          ///< the smallest rectangle round the slice's receivers: best texels, a grid that moves with
-                  ///< the camera
-  rotated,        ///< as tight, and the rectangle may turn: the least area where that lowers the objective
-  stable,         ///< a square whose size depends on the slice alone, snapped to whole texels: a stable grid
+  tight,    ///< the smallest rectangle round the slice's receivers: best texels, a grid that moves with
+            ///< the camera
+  rotated,  ///< as tight, and the rectangle may turn: the least area where that lowers the objective
+  stable,   ///< a rectangle that holds the slice's receivers wherever the camera looks, snapped to whole
+            ///< texels: a stable grid. Its sides depend on the slice, the light and the bounds of all
+            ///< receivers, in steps. So give all of them, not those in view alone
   warped_stable,  ///< as tight with room to spare, and kept as it is while the view stays inside. With a
                   ///< PlanHistory (motion.hpp) a warped grid that rarely changes
 };
@@ -332,9 +334,9 @@ inline constexpr PruneRules kPruneNothing{0};
 #undef GNOMON_PRUNE_RULE
   return rules;
 }
-/// The exact rules, and light_depths: depths fitted to what is there are only stored more finely.
+/// The exact rules, light_depths and equal_cascades: texels stay, and depths are only stored in other steps.
 [[nodiscard]] constexpr PruneRules default_prune_rules() noexcept {
-  return exact_prune_rules().with(PruneRule::light_depths);
+  return exact_prune_rules().with(PruneRule::light_depths).with(PruneRule::equal_cascades);
 }
 /// The rules that draw from this source.
 [[nodiscard]] PruneRules prune_rules_of(PruneSource source) noexcept;

@@ -55,6 +55,7 @@ enum class OmissionKind : std::uint8_t {
   cascade_on_planes,       ///< maps of warp.planes serve all of it; a: depth_begin, b: depth_end
   faces_less_divided,      ///< no map is left for a slice that pays; a: slices of that face, b: face_slices
   receiver_near_light,     ///< receivers nearer than a to the light have no map, and are lit; b: their boxes
+  cascade_without_gain,    ///< a stable map serves both with the same texels; a: depth_begin, b: depth_end
 };
 /// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {

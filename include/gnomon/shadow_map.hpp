@@ -29,7 +29,7 @@ inline constexpr int kMaxSelectPlanes = 4;
 struct SnapKey {
   std::int64_t x = 0, y = 0;                   ///< texels
   std::int64_t depth_near = 0, depth_far = 0;  ///< depth steps
-  double texel = 0.0;                          ///< side of the grid's squares, world units
+  glm::dvec2 texel{0.0};                       ///< sides of the grid's rectangles, world units
   bool valid = false;                          ///< true for Fit::stable, and levels of pages
   /// The same grid: both are valid, and equal in all members. Maps without a grid have none in common.
   friend bool operator==(const SnapKey& a, const SnapKey& b) noexcept {

@@ -51,7 +51,7 @@ const char* fault_of_map(const gnomon_map& m) noexcept {
   if (m.select_plane_count < 0 || m.select_plane_count > GNOMON_MAX_SELECT_PLANES)
     return "map.select_plane_count";
   if (!all_usable(m.select_planes, m.select_plane_count)) return "map.select_planes";
-  if (std::isnan(m.snap_texel)) return "map.snap_texel";
+  if (std::isnan(m.snap_texel[0]) || std::isnan(m.snap_texel[1])) return "map.snap_texel";
   return nullptr;
 }
 
@@ -86,7 +86,9 @@ void fill(const gnomon_map& m, ShadowMap& to) noexcept {
   to.select_plane_count = m.select_plane_count;
   for (std::size_t i = 0; i < static_cast<std::size_t>(m.select_plane_count); ++i)
     to.select_planes[i] = to_plane(m.select_planes[i]);
-  to.snap_key = {m.snap_x, m.snap_y, m.snap_depth_near, m.snap_depth_far, m.snap_texel, m.snap_valid != 0};
+  to.snap_key = {
+      m.snap_x,         m.snap_y, m.snap_depth_near, m.snap_depth_far, {m.snap_texel[0], m.snap_texel[1]},
+      m.snap_valid != 0};
   to.m_s_max = m.m_s_max;
   to.m_t_max = m.m_t_max;
   to.m_max = m.m_max;
@@ -143,7 +145,8 @@ void from_map(const ShadowMap& from, gnomon_map& to) noexcept {
   to.snap_y = from.snap_key.y;
   to.snap_depth_near = from.snap_key.depth_near;
   to.snap_depth_far = from.snap_key.depth_far;
-  to.snap_texel = from.snap_key.texel;
+  to.snap_texel[0] = from.snap_key.texel.x;
+  to.snap_texel[1] = from.snap_key.texel.y;
   to.m_s_max = from.m_s_max;
   to.m_t_max = from.m_t_max;
   to.m_max = from.m_max;

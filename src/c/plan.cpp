@@ -123,7 +123,7 @@ int32_t gnomon_plan_views(const gnomon_camera* const* cameras, int32_t count, co
 void gnomon_describe(const gnomon_omission* omission, gnomon_text* text) {
   if (omission == nullptr || text == nullptr) return;
   *text = {};
-  if (omission->kind < 0 || omission->kind > GNOMON_RECEIVER_NEAR_LIGHT) return;
+  if (omission->kind < 0 || omission->kind > GNOMON_CASCADE_WITHOUT_GAIN) return;
   // It becomes an index.
   if (omission->kind == GNOMON_OPTION_IGNORED && !(omission->a >= 0.0 && omission->a <= 1000.0)) return;
   const OmissionText words = describe(Omission{static_cast<OmissionKind>(omission->kind), omission->map,

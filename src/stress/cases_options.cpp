@@ -167,7 +167,7 @@ void case_zoom(Check& check) {
       input.options.resolution.stable_size_steps = steps;
       const ShadowPlan plan = input.plan();
       check.that(plan.status == PlanStatus::ok && plan.map[0].snap_key.valid, "a grid");
-      const double texel = plan.map[0].snap_key.texel;
+      const double texel = plan.map[0].snap_key.texel.x;
       sizes.insert(texel);
       low = std::min(low, texel);
       high = std::max(high, texel);

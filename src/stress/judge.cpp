@@ -86,9 +86,9 @@ class ExactMap {
   }
   [[nodiscard]] Real2 grid_texel(const Real3& p) const {
     const Real3 world = p + Real3(input_.camera.position);
-    const Real texel = map_.snap_key.texel;
-    return {glm::dot(axis_[0], world) / texel - Real(map_.snap_key.x) + 0.5L * map_.width,
-            glm::dot(axis_[1], world) / texel - Real(map_.snap_key.y) + 0.5L * map_.height};
+    const Real2 texel(map_.snap_key.texel);
+    return {glm::dot(axis_[0], world) / texel.x - Real(map_.snap_key.x) + 0.5L * map_.width,
+            glm::dot(axis_[1], world) / texel.y - Real(map_.snap_key.y) + 0.5L * map_.height};
   }
 
   const Input& input_;
@@ -220,6 +220,8 @@ const char* kind_name(OmissionKind kind) {
       return "plane without receiver";
     case OmissionKind::plane_without_caster:
       return "plane without caster";
+    case OmissionKind::cascade_without_gain:
+      return "cascade without gain";
     case OmissionKind::cascade_on_planes:
       return "cascade on planes";
     case OmissionKind::faces_less_divided:

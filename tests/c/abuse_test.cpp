@@ -203,7 +203,7 @@ TEST(Abuse, names_are_those_of_the_registries) {
 }
 
 TEST(Abuse, every_kind_of_omission_has_a_constant_and_words) {
-  for (int32_t kind = 0; kind <= GNOMON_RECEIVER_NEAR_LIGHT; ++kind) {
+  for (int32_t kind = 0; kind <= GNOMON_CASCADE_WITHOUT_GAIN; ++kind) {
     const gnomon_omission omission{kind, 1, 2.0, 3.0, 4};
     gnomon_text text;
     gnomon_describe(&omission, &text);
@@ -212,7 +212,7 @@ TEST(Abuse, every_kind_of_omission_has_a_constant_and_words) {
   }
   // The core has no further one: a kind that it does not know has no words.
   const OmissionText beyond =
-      describe({static_cast<OmissionKind>(GNOMON_RECEIVER_NEAR_LIGHT + 1), 0, 0.0, 0.0, 0});
+      describe({static_cast<OmissionKind>(GNOMON_CASCADE_WITHOUT_GAIN + 1), 0, 0.0, 0.0, 0});
   EXPECT_STREQ(beyond.what.data(), "");
 }
 

@@ -184,7 +184,8 @@ std::string first_difference(const ShadowMap& a, const gnomon_map& b) {
   same("snap_y", a.snap_key.y, b.snap_y);
   same("snap_depth_near", a.snap_key.depth_near, b.snap_depth_near);
   same("snap_depth_far", a.snap_key.depth_far, b.snap_depth_far);
-  same("snap_texel", a.snap_key.texel, b.snap_texel);
+  same("snap_texel", a.snap_key.texel.x, b.snap_texel[0]);
+  same("snap_texel", a.snap_key.texel.y, b.snap_texel[1]);
   same("m_s_max", a.m_s_max, b.m_s_max);
   same("m_t_max", a.m_t_max, b.m_t_max);
   same("m_max", a.m_max, b.m_max);

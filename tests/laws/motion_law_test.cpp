@@ -194,6 +194,7 @@ TEST(MotionLaw, a_warped_stable_map_keeps_its_very_matrix_until_an_event) {
   for_all(12, [&] {
     Walk w = draw_walk();
     w.options.fit = Fit::warped_stable;
+    if (chance(0.7)) w.options.clip_space = chance(0.5) ? kVulkan : kDirect3D;
     fly(w, 120,
         [&](const ShadowPlan& a, const ShadowPlan& b, const Camera&, const Camera&,
             const PlanHistory& history) {

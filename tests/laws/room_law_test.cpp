@@ -53,7 +53,8 @@ TEST(RoomLaw, nearest_and_farthest_depths_are_off_both_planes_by_more_than_a_flo
     if (s.c.options.fit == Fit::stable) {
       // Depths in whole steps leave room by luck: none where both ends lie just inside of a step.
       const ShadowMap first = s.c.plan().map[0];
-      const double side = first.snap_key.texel * (first.width - 1 - 2 * first.filter_margin_texels);
+      const glm::dvec2 texel = first.snap_key.texel;
+      const double side = std::max(texel.x, texel.y) * (first.width - 1 - 2 * first.filter_margin_texels);
       const double step = side / 16.0;
       s.low = -step * (1.0 - 1e-6);
       s.high = step * (1 + pick(3)) * (1.0 - 1e-6);

@@ -2,12 +2,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 #include <set>
 #include <vector>
 
 #include "gnomon/motion.hpp"
+#include "gnomon/study/formulas.hpp"
 #include "support/property.hpp"
 #include "support/random_case.hpp"
 
@@ -34,6 +36,13 @@ Case draw_stable_case() {
   const double f = 4.0 * c.camera.far_depth;
   // One box, or the same in slabs: several boxes are bounded and culled one by one.
   Box rest{c.camera.position - glm::dvec3(f), c.camera.position + glm::dvec3(f)};
+  // Or flat: the grid's rectangles are then narrower along the light's slope.
+  if (chance(0.4)) {
+    const int thin = pick(3);
+    const double share = std::exp2(-between(2.0, 8.0));
+    rest.min[thin] += between(0.9, 1.0) * (1.0 - share) * f;
+    rest.max[thin] = rest.min[thin] + share * f;
+  }
   const std::vector<Box> others = c.casters;
   c.receivers.clear();
   const int axis = pick(3);
@@ -97,6 +106,106 @@ TEST(StableLaw, the_grid_is_stable_under_any_motion_and_turn_of_the_camera) {
     compared += require_same_grid(c, before, moved.plan());
   });
   EXPECT_GT(compared, of_all_draws(4000));
+}
+
+// Whatever the camera looks at: no two receivers of one slice lie farther apart, so that none is left out.
+TEST(StableLaw, sides_are_the_farthest_that_receivers_of_one_slice_lie_apart) {
+  std::uint64_t maps = 0, narrower = 0;
+  for_all(500, [&] {
+    Case c = draw_stable_case();
+    c.options.filter = {};
+    c.options.resolution = {};
+    RC_LOG() << c;
+    glm::dvec3 low = c.receivers[0].min, high = c.receivers[0].max;
+    for (const Box& box : c.receivers) {
+      low = glm::min(low, box.min);
+      high = glm::max(high, box.max);
+    }
+    const glm::dvec3 size = high - low;
+    Random random(7);
+    for (const ShadowMap& map : c.plan().maps()) {
+      const double chord = longest_chord(c.camera.left, c.camera.right, c.camera.bottom, c.camera.top,
+                                         c.camera.orthographic, map.depth_begin - map.overlap, map.depth_end);
+      constexpr double kSteps = 1.0 + 2.0 / 32.0 + 1.0 / 1024.0;
+      for (int i = 0; i < 2; ++i) {
+        const glm::dmat4& m = map.clip_from_world;
+        const glm::dvec3 axis = glm::normalize(glm::dvec3(m[0][i], m[1][i], m[2][i]));
+        const double side = map.snap_key.texel[i] * (map.width - 1 - 2 * map.filter_margin_texels);
+        for (int offset = 0; offset < 100; ++offset) {
+          glm::dvec3 d(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+          // Both ends: what lies along the axis, and what lies along the box.
+          if (offset % 2 == 0) d += 4.0 * axis;
+          d = glm::clamp(d * (chord / glm::length(d)), -size, size);
+          require(std::abs(glm::dot(d, axis)) <= side * (1.0 + 1e-12), "receivers apart", offset, side);
+        }
+        const double across = glm::dot(glm::abs(axis), size);
+        const glm::dvec2 other(map.snap_key.texel);
+        require(side <= kSteps *
+                            std::max(std::min(chord, across), 0.016 * std::max(other.x, other.y) * map.width),
+                "a side beyond both bounds", side, chord, across);
+        narrower += side < 0.7 * chord;
+        ++maps;
+      }
+    }
+  });
+  EXPECT_GT(maps, of_all_draws(1000));
+  EXPECT_GT(narrower, of_all_draws(100));
+}
+
+// Ground under a low sun: its texels are as short along the light's slope as the ground looks from the sun.
+TEST(StableLaw, flat_ground_under_a_low_sun_has_short_texels) {
+  const std::vector<Box> ground{{{-300, -1, -300}, {300, 0, 300}}};
+  const Camera camera = perspective_camera({0, 3, 0}, {0, -0.1, -1}, {0, 1, 0}, 1.0, 1.6, 0.1, 200, 640, 400);
+  PlanOptions options;
+  options.fit = Fit::stable;
+  options.cascades = 3;
+  const ShadowPlan plan = make_plan(camera, DirectionalLight{{1.0, -0.2, 0.4}}, {ground, ground}, options);
+  ASSERT_EQ(plan.map_count, 3);
+  const double sine = 0.2 / std::sqrt(1.0 + 0.04 + 0.16);
+  for (const ShadowMap& map : plan.maps()) {
+    const glm::dvec2 texel = map.snap_key.texel;
+    EXPECT_LT(std::min(texel.x, texel.y), (sine + 0.35) * std::max(texel.x, texel.y)) << map.cascade;
+    EXPECT_GT(std::min(texel.x, texel.y), sine * std::max(texel.x, texel.y)) << map.cascade;
+  }
+}
+
+// Before a camera that sees all of a small scene: what every slice's map spans is the scene.
+TEST(StableLaw, cascades_are_omitted_where_the_next_ones_map_has_the_same_texels) {
+  std::uint64_t compared = 0, omitted = 0;
+  for_all(500, [&] {
+    Case c = draw_stable_case();
+    c.options.prune = default_prune_rules();
+    c.options.cascades = 2 + pick(5);
+    c.options.split.overlap = 0.0;
+    const double f = c.camera.far_depth, size = f * std::exp2(-between(0.0, 5.0));
+    const glm::dvec3 middle = point_at(c.camera, 0.0, 0.0, between(0.2, 0.9) * f);
+    c.receivers = {{middle - glm::dvec3(size), middle + glm::dvec3(size)}};
+    c.casters = c.receivers;
+    RC_LOG() << c;
+    const ShadowPlan few = c.plan();
+    if (few.status != PlanStatus::ok) return;
+    c.options.prune = c.options.prune.without(PruneRule::equal_cascades);
+    const ShadowPlan all = c.plan();
+    for (const Omission& o : few.omitted()) omitted += o.kind == OmissionKind::cascade_without_gain;
+    for (const Omission& o : all.omitted())
+      require(o.kind != OmissionKind::cascade_without_gain, "an omission that is switched off");
+    Random random(8);
+    for (const glm::dvec3& p : visible_points(c, random, 1, 8)) {
+      const double depth = depth_of(c.camera, p);
+      const int m = map_serving(few, p, depth), n = map_serving(all, p, depth);
+      require((m < 0) == (n < 0), "served", m, n);
+      if (m < 0) continue;
+      const ShadowMap &one = few.map[static_cast<std::size_t>(m)],
+                      &other = all.map[static_cast<std::size_t>(n)];
+      require(map_holds(few, one, p), "held");
+      require(one.snap_key.texel == other.snap_key.texel, "texels", one.cascade, other.cascade);
+      const glm::dvec2 moved = texel_of(one, p) - texel_of(other, p);
+      require(from_whole(moved.x) <= kTexel && from_whole(moved.y) <= kTexel, "grid", moved.x, moved.y);
+      ++compared;
+    }
+  });
+  EXPECT_GT(compared, of_all_draws(2000));
+  EXPECT_GT(omitted, of_all_draws(200));
 }
 
 TEST(StableLaw, equal_snap_keys_mean_the_same_matrix_to_the_last_bit) {
@@ -174,7 +283,7 @@ TEST(StableLaw, a_kernel_in_world_units_leaves_a_local_light_its_texels_within_a
     const SpotLight lamp{{0, 2, 0}, {1, -0.1, 0}, 0.7, 80.0};
     const ShadowPlan plan = make_plan(camera, lamp, {floor, casters}, options);
     for (const ShadowMap& map : plan.maps()) {
-      sizes.insert(map.snap_key.texel);
+      sizes.insert(map.snap_key.texel.x);
       ++maps;
     }
   }
@@ -190,9 +299,12 @@ TEST(StableLaw, a_stable_map_is_never_warped_and_reports_an_ignored_warp) {
     const ShadowPlan plan = c.plan();
     for (const ShadowMap& map : plan.maps()) {
       require(map.warp == &warps::none && map.kappa == 0.0, map.warp->name, map.kappa);
-      // Square texels of one size over the whole map.
-      require(std::abs(map.texel_world.x - map.texel_world.y) <= 1e-9 * map.texel_world.x, "texels",
-              map.texel_world.x, map.texel_world.y);
+      // Texels of one size over the whole map.
+      for (int i = 0; i < 2; ++i) {
+        const double side = map.snap_key.texel[i];
+        require(std::abs(map.texel_world[i] - side) <= 1e-9 * side, "texels", map.texel_world[i], side);
+        require(std::abs(map.texel_world_max[i] - side) <= 1e-9 * side, "largest", map.texel_world_max[i]);
+      }
       ++maps;
     }
     if (plan.status != PlanStatus::ok || c.options.warp.warp == nullptr ||

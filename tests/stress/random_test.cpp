@@ -201,7 +201,7 @@ TEST(RandomNet, cases_are_the_same_everywhere_and_different_from_each_other) {
     for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
   }
   EXPECT_EQ(different.size(), 200u);
-  EXPECT_EQ(hash, 1331942374870991601u);
+  EXPECT_EQ(hash, 17014952173928883394u);
   EXPECT_NE(draw_case(7, 3), draw_case(8, 3));
 }
 

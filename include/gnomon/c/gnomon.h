@@ -337,7 +337,7 @@ typedef struct gnomon_plan_options {
 
   /// Frames from one plan of a cascade behind the first to its next, 1..64; default 1. More need a history.
   int32_t cadence_frames;
-  uint32_t prune;               ///< bits of GNOMON_PRUNE_RULES; default: the exact ones, and light_depths
+  uint32_t prune;               ///< bits of GNOMON_PRUNE_RULES; default: exact ones, light_depths, equal_cascades
   double cadence_largest_step;  ///< largest step of the eye from frame to frame, world units, >= 0; default 0
   double cadence_largest_turn;  ///< largest turn of the camera from frame to frame, radians, 0..pi; default 0
 
@@ -398,7 +398,7 @@ typedef struct gnomon_map {
                       [4];                  ///< the map serves a point only inside all of them; as above
   int64_t snap_x, snap_y;                   ///< place of the grid, texels
   int64_t snap_depth_near, snap_depth_far;  ///< depth range of the grid, depth steps
-  double snap_texel;                        ///< side of a texel of the grid, world units
+  double snap_texel[2];                     ///< sides of a texel of the grid, world units
   double m_s_max, m_t_max;  ///< largest perspective error along the map's x and y, screen pixels per texel
   double m_max;             ///< bound of the perspective error in any direction, screen pixels per texel
   double storage;           ///< texels per screen pixel for an error of 1 everywhere in this map
@@ -420,7 +420,7 @@ enum {
   GNOMON_FACE_WITHOUT_RECEIVER = 9,     ///< of a local light
   GNOMON_FACE_WITHOUT_CASTER = 10,      ///< of a local light
   GNOMON_RESOLUTION_WITHOUT_GAIN = 11,  ///< a smaller map suffices; a: bound of m at full size, b: now
-  GNOMON_DEPTH_NEAR_LIGHT = 12,         ///< nearer than a to the light nothing casts; b: casters there
+  GNOMON_DEPTH_NEAR_LIGHT = 12,         ///< b casters reach below depth a along the map's axis: cut
   GNOMON_OPTION_IGNORED = 13,           ///< a: which, GNOMON_IGNORED_PARTITION and others
   GNOMON_VIEW_WITHOUT_RECEIVER = 14,    ///< of gnomon_plan_views; a: index of the camera
   GNOMON_PAGES_COARSENED = 15,          ///< the pool is too small; a: requested error, b: planned error
@@ -431,7 +431,8 @@ enum {
   GNOMON_PLANE_WITHOUT_CASTER = 20,     ///< a: index in warp_planes
   GNOMON_CASCADE_ON_PLANES = 21,        ///< maps of warp_planes serve all of it; a: depth_begin, b: depth_end
   GNOMON_FACES_LESS_DIVIDED = 22,       ///< no map is left for a slice; a: slices, b: split_face_slices
-  GNOMON_RECEIVER_NEAR_LIGHT = 23       ///< receivers nearer than a to the light are lit; b: their boxes
+  GNOMON_RECEIVER_NEAR_LIGHT = 23,      ///< receivers nearer than a to the light are lit; b: their boxes
+  GNOMON_CASCADE_WITHOUT_GAIN = 24      ///< the next map serves it with the same texels; a, b: depths
 };
 /// The option that GNOMON_OPTION_IGNORED is about.
 enum {

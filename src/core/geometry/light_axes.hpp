@@ -15,8 +15,13 @@ namespace gnomon {
 [[nodiscard]] LightFrame view_aligned_frame(const glm::dvec3& light_direction,
                                             const CameraAxes& axes) noexcept;
 
-/// Depends on the light alone, so that a snapped grid never turns with the camera.
+/// Depends on the light alone.
 [[nodiscard]] LightFrame fixed_frame(const glm::dvec3& light_direction) noexcept;
+
+/// That of a parallel light's stable grids: fixed_frame turned about the light by 22.5 degrees.
+/// Upright edges would lie along texel columns otherwise, and a whole edge would fall to one side of its
+/// texels; across them a filter evens out where it falls.
+[[nodiscard]] LightFrame grid_frame(const glm::dvec3& light_direction) noexcept;
 
 /// Of a face of the cube whose faces look along +x -x +y -y +z -z of `cube`; z against the face's axis.
 [[nodiscard]] LightFrame face_frame(const LightFrame& cube, int face) noexcept;

@@ -310,7 +310,8 @@ double depth_range(const MapRequest& request, const Fitted& fitted) noexcept {
 void write_snap_key(const Fitted& fitted, ShadowMap& map) noexcept {
   map.snap_key.depth_near = std::ilogb(fitted.heights.nearest);
   // A texel one world unit from the light.
-  map.snap_key.texel = (fitted.plane.a_max - fitted.plane.a_min) / (map.width - 2 * map.filter_margin_texels);
+  map.snap_key.texel =
+      glm::dvec2((fitted.plane.a_max - fitted.plane.a_min) / (map.width - 2 * map.filter_margin_texels));
   map.snap_key.valid = true;
 }
 
@@ -350,10 +351,11 @@ void write_snap_key(const Fitted& fitted, ShadowMap& map) noexcept {
   }
   if (cached) {
     map.warp = map.kappa > 0.0 ? &request.warp : &warps::none;
-    // The very bits of the last frame: what is drawn stays as it is.
     result.gl_from_world = request.last->gl_from_world;
-    map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
   }
+  // The very bits of the frame that it was fitted in, in every clip space: what is drawn stays as it is.
+  if (c.how.caches_maps && c.how.has_history)
+    map.clip_from_world = clip_from_gl_clip(c.options.clip_space) * result.gl_from_world;
 }
 
 /// The last frame's map where it still serves; false where it does not.

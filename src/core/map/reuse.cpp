@@ -25,7 +25,7 @@ bool same_texels(const ShadowMap& a, const ShadowMap& b) noexcept {
 
 bool same_grid(const ShadowMap& a, const ShadowMap& b) noexcept {
   const SnapKey &p = a.snap_key, &c = b.snap_key;
-  if (!p.valid || !c.valid || !(p.texel > 0.0) || p.texel != c.texel) return false;
+  if (!p.valid || !c.valid || !(p.texel.x > 0.0 && p.texel.y > 0.0) || p.texel != c.texel) return false;
   // Beyond 2^53 keys are clamped: they no longer tell where the map is.
   constexpr std::int64_t kTrusted = std::int64_t{1} << 52;
   for (const std::int64_t key : {p.x, p.y, c.x, c.y}) {
@@ -80,7 +80,7 @@ MapReuse reuse(const ShadowMap& previous, const ShadowMap& current, const ClipSp
   }
   if (!same_grid(previous, current)) return whole(current);
   // Keys count along the light's own axes; the map's may point against them.
-  const LightFrame frame = fixed_frame(-glm::dvec3(current.light_world));
+  const LightFrame frame = grid_frame(-glm::dvec3(current.light_world));
   const bool x_against = glm::dot(glm::dvec3(row_of(current.clip_from_world, 0)), frame.x) < 0.0;
   bool y_against = glm::dot(glm::dvec3(row_of(current.clip_from_world, 1)), frame.y) < 0.0;
   if (clip_space.first_row == FirstRow::y_plus_one) y_against = !y_against;

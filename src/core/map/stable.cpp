@@ -1,11 +1,15 @@
 // A map whose texel grid does not move with the camera.
-// Based on: Valient, "Stable Rendering of Cascaded Shadow Maps", ShaderX6, 2008; the size from the longest
-// chord instead of the enclosing sphere, and centres as whole numbers of texels in double, are this
-// project's.
+// Based on: Valient, "Stable Rendering of Cascaded Shadow Maps", ShaderX6, 2008; sides from the longest chord
+// within the bounds of all receivers instead of the enclosing sphere, and centres as whole numbers of texels
+// in double, are this project's.
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 
 #include "geometry/vector.hpp"
+#include "geometry/visible.hpp"
 #include "gnomon/extend/body.hpp"
 #include "gnomon/extend/light_space.hpp"
 #include "gnomon/shadow_map.hpp"
@@ -20,9 +24,11 @@
 namespace gnomon {
 namespace {
 
-/// The grid: a square whose size depends on the slice alone, its centre at a whole texel.
+/// The grid: a rectangle whose sides depend on the slice and the bounds of all receivers alone, its centre at
+/// a whole texel.
 struct Grid {
-  double side, texel, half;
+  glm::dvec2 texel, half;
+  double side;        // the longer one, borders apart
   glm::dvec3 eye;     // of the light frame
   glm::dvec2 centre;  // absolute
 };
@@ -44,11 +50,11 @@ Slices slices_of(const PlanContext& c, const MapRequest& request) noexcept {
 
 /// The longest distance between two corners of any slices. For one view from its image's edges, so that it is
 /// the same bits every frame.
-double longest_distance(const PlanContext& c, const MapRequest& request, const Slices& slices) noexcept {
-  if (c.views.empty()) {
-    return longest_chord(c.camera.left, c.camera.right, c.camera.bottom, c.camera.top, c.camera.orthographic,
-                         request.begin, request.end);
-  }
+double longest_chord_of(const PlanContext& c, double begin, double end) noexcept {
+  return longest_chord(c.camera.left, c.camera.right, c.camera.bottom, c.camera.top, c.camera.orthographic,
+                       begin, end);
+}
+double longest_distance(const Slices& slices) noexcept {
   double longest = 0.0;
   for (const Polytope& a : slices.all()) {
     for (const Polytope& b : slices.all()) {
@@ -61,39 +67,155 @@ double longest_distance(const PlanContext& c, const MapRequest& request, const S
   return longest;
 }
 
-/// Out of line: the map need not make room for the slices.
-[[gnu::noinline]] Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {
-  const LightFrame& frame = request.space.frame;
-  Grid grid{};
-  // Rounded up so that its own rounding can never change the grid; one texel is the room that snapping moves
-  // within.
+/// The farthest that two points in a box of these sides lie from each other along `axis`, where they are at
+/// most `chord` apart.
+double farthest_along(const glm::dvec3& axis, const glm::dvec3& size, double chord) noexcept {
+  // Along the axis itself, until sides of the box end: the rest of the chord then lies along the others.
+  glm::dvec3 offset(0.0);
+  std::array<bool, 3> ended{};
+  for (int round = 0; round < 3; ++round) {
+    double left = chord * chord, across = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      if (ended[static_cast<std::size_t>(i)])
+        left -= size[i] * size[i];
+      else
+        across += axis[i] * axis[i];
+    }
+    const double along = left > 0.0 && across > 0.0 ? std::sqrt(left / across) : 0.0;
+    for (int i = 0; i < 3; ++i) {
+      if (ended[static_cast<std::size_t>(i)]) continue;
+      offset[i] = along * std::abs(axis[i]);
+      if (offset[i] < size[i]) continue;
+      offset[i] = size[i];
+      ended[static_cast<std::size_t>(i)] = true;
+    }
+  }
+  return glm::dot(offset, glm::abs(axis));
+}
+
+/// A box that holds all receivers, in whole steps in the world: neither the camera nor receivers that move
+/// inside of it change it, and those at its border do rarely.
+Box bounds_in_steps(const Boxes& receivers) noexcept {
+  Box all = casters_inside({}, receivers, glm::dvec3(0.0), {0.0, 0.0, 1.0}).bounds;
+  constexpr double kSteps = 32.0, kMaxSteps = 0x1p52;
+  for (int i = 0; i < 3; ++i) {
+    const double size = all.max[i] - all.min[i],
+                 farthest = max_of(std::abs(all.min[i]), std::abs(all.max[i]));
+    const double step = elementary::power_of_two_below(size) / kSteps;
+    if (!(size > 0.0 && farthest < kMaxSteps * step)) continue;
+    all.min[i] = std::floor(all.min[i] / step) * step;
+    all.max[i] = std::ceil(all.max[i] / step) * step;
+  }
+  return all;
+}
+
+/// Where receivers of the slice lie, relative to the camera, and how long sides hold them wherever the camera
+/// looks.
+struct Extent {
+  glm::dvec2 middle, side;
+  double chord;  // longest distance within the slices
+};
+
+/// Along one axis.
+struct Span {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+};
+Span span_along(const glm::dvec3& axis, const Polytope& body) noexcept {
+  Span span;
+  for (const Polytope::Vertex& v : body.vertices()) {
+    const double at = glm::dot(axis, v.position);
+    span = {min_of(span.low, at), max_of(span.high, at)};
+  }
+  return span;
+}
+
+/// For one camera: the slice within the bounds of all receivers. Not its body, which follows receivers that
+/// move inside of them.
+Extent extent_of_slice(const PlanContext& c, const MapRequest& request, const Box& receivers) noexcept {
+  Extent extent{};
+  extent.chord = longest_chord_of(c, request.begin, request.end);
+  const Polytope slice = frustum_slice(c.camera, c.axes, request.begin, request.end);
+  Polytope held = slice;
+  clip(held, relative_to(receivers, c.camera.position));
+  for (int i = 0; i < 2; ++i) {
+    const glm::dvec3& axis = i == 0 ? request.space.frame.x : request.space.frame.y;
+    const Span span = span_along(axis, held.empty() ? slice : held);
+    extent.middle[i] = 0.5 * (span.low + span.high);
+    extent.side[i] = farthest_along(axis, receivers.max - receivers.min, extent.chord);
+  }
+  return extent;
+}
+
+/// For several cameras, or with room round what one sees. Out of line: other maps need not make room for the
+/// slices.
+[[gnu::noinline]] Extent extent_of_slices(const PlanContext& c, const MapRequest& request,
+                                          const Box& receivers) noexcept {
   const Slices slices = slices_of(c, request);
-  const double chord = longest_distance(c, request, slices) + 2.0 * request.room;
-  const double unit = elementary::power_of_two_below(chord) / c.options.resolution.stable_size_steps;
-  grid.side = std::ceil(chord / unit) * unit;
-  map.filter_margin_texels = border_texels(c.options, map.width - 1, 1.0 / grid.side);
-  const int inside = map.width - 1 - 2 * map.filter_margin_texels;
-  grid.texel = grid.side / inside;
-  grid.eye = frame.turned(c.camera.position);
+  Extent extent{};
+  extent.chord = c.views.empty() ? longest_chord_of(c, request.begin, request.end) : longest_distance(slices);
+  const glm::dvec3 centre = 0.5 * (receivers.min + receivers.max) - c.camera.position;
+  for (int i = 0; i < 2; ++i) {
+    const glm::dvec3& axis = i == 0 ? request.space.frame.x : request.space.frame.y;
+    Span all;
+    for (const Polytope& slice : slices.all()) {
+      const Span span = span_along(axis, slice);
+      all = {min_of(all.low, span.low - request.room), max_of(all.high, span.high + request.room)};
+    }
+    // Either side holds them all: that of the slices, and that of the receivers' bounds.
+    const double across = 0.5 * glm::dot(glm::abs(axis), receivers.max - receivers.min);
+    extent.side[i] = min_of(extent.chord + 2.0 * request.room, 2.0 * across);
+    const double middle = glm::dot(axis, centre);
+    const double from = max_of(all.low, middle - across), to = min_of(all.high, middle + across);
+    extent.middle[i] = 0.5 * (from < to ? from + to : all.low + all.high);
+  }
+  return extent;
+}
+
+/// Sides as they are drawn.
+glm::dvec2 rounded_sides(const PlanContext& c, double end, const glm::dvec2& sides, double chord) noexcept {
+  // Flat receivers that the light grazes, and such as are a point, leave a side of next to nothing; floats
+  // relative to the camera tell no texels apart that are finer than this share of a slice's distance.
+  constexpr double kThinnest = 1.0 / 64.0, kLeast = 0x1p-13;
+  const double least = max_of(kThinnest * max_of(sides.x, sides.y), kLeast * max_of(chord, std::abs(end)));
+  glm::dvec2 rounded;
+  for (int i = 0; i < 2; ++i) {
+    // Up, so that their own rounding can never change the grid.
+    const double side = max_of(sides[i], least);
+    const double unit = elementary::power_of_two_below(side) / c.options.resolution.stable_size_steps;
+    rounded[i] = std::ceil(side / unit) * unit;
+  }
+  return rounded;
+}
+
+/// Out of line: the map need not make room for the slice.
+[[gnu::noinline]] Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {
+  Grid grid{};
+  const Box receivers = bounds_in_steps(c.bounds.receivers);
+  const Extent extent = c.views.empty() && request.room == 0.0 ? extent_of_slice(c, request, receivers)
+                                                               : extent_of_slices(c, request, receivers);
+  const glm::dvec2 sides = rounded_sides(c, request.end, extent.side, extent.chord);
+  // One texel is the room that snapping moves within.
+  map.filter_margin_texels = border_texels(c.options, map.width - 1, 1.0 / min_of(sides.x, sides.y));
+  const double inside = map.width - 1 - 2 * map.filter_margin_texels;
+  grid.texel = sides / inside;
+  grid.eye = request.space.frame.turned(c.camera.position);
   // Texels finer than doubles are this far out have no place of their own.
   constexpr double kMaxTexels = 0x1p50;
-  while (max_of(std::abs(grid.eye.x), std::abs(grid.eye.y)) > kMaxTexels * grid.texel) grid.texel *= 2.0;
-  grid.side = grid.texel * inside;
-  grid.half = 0.5 * grid.texel * map.width;
-  // Centre of the whole slice, in absolute light coordinates, to the nearest texel.
-  Box box;
-  for (const Polytope& slice : slices.all()) {
-    for (const Polytope::Vertex& v : slice.vertices()) box.extend(frame.turned(v.position));
+  for (int i = 0; i < 2; ++i) {
+    while (std::abs(grid.eye[i]) > kMaxTexels * grid.texel[i]) grid.texel[i] *= 2.0;
   }
+  grid.side = max_of(grid.texel.x, grid.texel.y) * inside;
+  grid.half = 0.5 * grid.texel * static_cast<double>(map.width);
+  // The middle, in absolute light coordinates, to the nearest texel.
   map.snap_key.texel = grid.texel;
-  map.snap_key.x = snap_index(grid.eye.x + 0.5 * (box.min.x + box.max.x), grid.texel);
-  map.snap_key.y = snap_index(grid.eye.y + 0.5 * (box.min.y + box.max.y), grid.texel);
+  map.snap_key.x = snap_index(grid.eye.x + extent.middle.x, grid.texel.x);
+  map.snap_key.y = snap_index(grid.eye.y + extent.middle.y, grid.texel.y);
   grid.centre = glm::dvec2(map.snap_key.x, map.snap_key.y) * grid.texel;
   return grid;
 }
 
-/// Depths in whole steps of a sixteenth of the side, so that stored depths do not change either. Steps double
-/// until whole numbers hold both ends.
+/// Depths in whole steps of a sixteenth of the longer side, so that stored depths do not change either. Steps
+/// double until whole numbers hold both ends.
 LightDepths snapped_depths(const Grid& grid, const HeightRange& heights, SnapKey& key) noexcept {
   const LightDepths wanted = padded(heights.bottom, heights.height, grid.side);
   const double low = grid.eye.z + wanted.bottom, high = low + wanted.height;
@@ -109,13 +231,15 @@ LightDepths snapped_depths(const Grid& grid, const HeightRange& heights, SnapKey
           static_cast<double>(key.depth_near - key.depth_far) * step};
 }
 
-/// OpenGL clip space of a square round `centre`. Sizes are given, not differences of edges: far from the
+/// OpenGL clip space of a rectangle round `centre`. Sizes are given, not differences of edges: far from the
 /// origin those would be rounding.
-glm::dmat4 clip_from_grid(const glm::dvec2& centre, double half, const LightDepths& depths) noexcept {
+glm::dmat4 clip_from_grid(const glm::dvec2& centre, const glm::dvec2& half,
+                          const LightDepths& depths) noexcept {
   glm::dmat4 m(1.0);
-  m[0][0] = m[1][1] = 1.0 / half;
+  m[0][0] = 1.0 / half.x;
+  m[1][1] = 1.0 / half.y;
   m[2][2] = -2.0 / depths.height;
-  m[3] = {-centre.x / half, -centre.y / half, 1.0 + 2.0 * depths.bottom / depths.height, 1.0};
+  m[3] = {-centre.x / half.x, -centre.y / half.y, 1.0 + 2.0 * depths.bottom / depths.height, 1.0};
   return m;
 }
 
@@ -129,6 +253,19 @@ std::int64_t snap_index(double value, double step) noexcept {
   return static_cast<std::int64_t>(index);
 }
 
+bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, double begin, double middle,
+                            double end) noexcept {
+  const Box receivers = bounds_in_steps(c.bounds.receivers);
+  const auto sides = [&](double from, double to) {
+    const double chord = longest_chord_of(c, from, to);
+    const glm::dvec3 size = receivers.max - receivers.min;
+    return rounded_sides(c, to, {farthest_along(frame.x, size, chord), farthest_along(frame.y, size, chord)},
+                         chord);
+  };
+  const glm::dvec2 both = sides(begin, end);
+  return both == sides(begin, middle) && both == sides(middle, end);
+}
+
 void stable_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
   ShadowMap& map = result.map;
   begin_record(c, request, map);
@@ -136,16 +273,17 @@ void stable_map(const PlanContext& c, const MapRequest& request, MapResult& resu
   const LightBody body = in_light_space(c, request);
   const glm::dvec2 centre = grid.centre - glm::dvec2(grid.eye);  // relative to the camera
   PlaneMap plane = body.under({});
-  plane.a_min = centre.x - grid.half;
-  plane.a_max = centre.x + grid.half;
-  plane.b_min = centre.y - plane.u_min - grid.half;
-  plane.b_max = centre.y - plane.u_min + grid.half;
+  plane.a_min = centre.x - grid.half.x;
+  plane.a_max = centre.x + grid.half.x;
+  plane.b_min = centre.y - plane.u_min - grid.half.y;
+  plane.b_max = centre.y - plane.u_min + grid.half.y;
 
   const double border = static_cast<double>(map.filter_margin_texels) / map.width;
   const glm::dvec4 light(request.space.frame.z, 0.0);
   const ServedBody served(c, request, body, plane);
   SweptBody swept;
-  sweep(served.request().body, light, grid.texel * map.filter_margin_texels, c.camera.position, swept);
+  sweep(served.request().body, light, max_of(grid.texel.x, grid.texel.y) * map.filter_margin_texels,
+        c.camera.position, swept);
   const HeightRange heights = height_range(c, served.request(), {served.points(), plane, swept, {border}});
   if (!heights.has_casters && !request.without_casters) return;
   result.drawn = true;

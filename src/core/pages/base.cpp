@@ -41,14 +41,14 @@ void anchor_on_map(PageBase& base) noexcept {
 /// drawn pages stay valid. Not where the bounds are so deep that floats would run out.
 void deepen_to_bounds(const SceneBounds& bounds, const glm::dvec3& light_direction,
                       const ClipSpace& clip_space, PageBase& base) noexcept {
-  const glm::dvec3 up = fixed_frame(light_direction).z;
+  const glm::dvec3 up = grid_frame(light_direction).z;
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (const Boxes& boxes : {bounds.casters, bounds.receivers}) {
     high = max_of(high, casters_inside({}, boxes, glm::dvec3(0.0), up).top);
     low = min_of(low, -casters_inside({}, boxes, glm::dvec3(0.0), -up).top);
   }
   constexpr double kSteps = 16.0, kDeepest = 64.0, kMaxSteps = 0x1p50;
-  const double side = base.map.texel_world.x * base.map.width;
+  const double side = max_of(base.unit.x, base.unit.y);
   if (!(high > low && high - low < kDeepest * side)) return;
   const double step = 2.0 * elementary::power_of_two_below(high - low) / kSteps;
   const double first = std::floor(low / step) - 1.0, last = std::ceil(high / step) + 1.0;
@@ -67,7 +67,7 @@ void deepen_to_bounds(const SceneBounds& bounds, const glm::dvec3& light_directi
 /// Places in world units across parallel light, from the world's origin on: the same for every camera.
 void anchor_in_world(const glm::dvec3& light_direction, PageBase& base) noexcept {
   const ShadowMap& map = base.map;
-  const LightFrame frame = fixed_frame(light_direction);
+  const LightFrame frame = grid_frame(light_direction);
   const auto along = [&](const glm::dvec3& axis, int row) {
     const bool turned_round = glm::dot(glm::dvec3(row_of(map.clip_from_world, row)), axis) < 0.0;
     return glm::dvec4(turned_round ? -axis : axis, 0.0);
@@ -76,14 +76,14 @@ void anchor_in_world(const glm::dvec3& light_direction, PageBase& base) noexcept
   base.row_y = along(frame.y, 1);
   base.row_w = {0.0, 0.0, 0.0, 1.0};
   const SnapKey& key = map.snap_key;
-  const double half = 0.5 * key.texel * map.width;
+  const glm::dvec2 half = 0.5 * key.texel * glm::dvec2(map.width, map.height);
   const glm::dvec2 centre =
       glm::dvec2(glm::dot(glm::dvec3(base.row_x), frame.x) * static_cast<double>(key.x),
                  glm::dot(glm::dvec3(base.row_y), frame.y) * static_cast<double>(key.y)) *
       key.texel;
   base.low = centre - half;
   base.high = centre + half;
-  base.unit = glm::dvec2(2.0 * half);
+  base.unit = 2.0 * half;
   base.side = base.unit;
 }
 

@@ -183,7 +183,7 @@ ShadowMap level_map(const PageContext& c, std::uint32_t level) noexcept {
     map.snap_key.valid = true;
     map.snap_key.x = g.first_x * page;
     map.snap_key.y = g.first_y * page;
-    map.snap_key.texel = g.side.x / page;
+    map.snap_key.texel = g.side / static_cast<double>(page);
   }
   return map;
 }

@@ -69,14 +69,15 @@ ShadowMap page_map(const PagePlan& plan, const Page& page) noexcept {
   if (level.snap_key.valid) {
     // From the place alone, not from the level's extent, which follows the view.
     const PagePlaces& at = plan.places[static_cast<std::size_t>(level.cascade)];
-    const double side = level.snap_key.texel * texels, scale = 2.0 * texels / slot;
+    const glm::dvec2 side = level.snap_key.texel * texels;
+    const double scale = 2.0 * texels / slot;
     const auto middle = [&](std::int64_t first, std::int32_t cell) {
       return static_cast<double>(first / plan.page_texels + cell) + 0.5;
     };
     const double column = middle(level.snap_key.x, page.column), row = middle(level.snap_key.y, page.row);
     for (int i = 0; i < 4; ++i) {
-      m[i][0] = (at.x[i] / side - at.w[i] * column) * scale;
-      m[i][1] = (at.y[i] / side - at.w[i] * row) * scale;
+      m[i][0] = (at.x[i] / side.x - at.w[i] * column) * scale;
+      m[i][1] = (at.y[i] / side.y - at.w[i] * row) * scale;
     }
   } else {
     const glm::dvec2 size(level.width, level.height);

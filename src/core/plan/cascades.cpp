@@ -210,6 +210,26 @@ void fit_cascade(const PlanContext& c, const MapRequest& request, MapResult& res
         history, plan);
 }
 
+/// Leaves a cascade's depths to the next one where the map of both has the same texels. Out of line: maps
+/// need not make room for what is compared.
+[[gnu::noinline]] void leave_to_next(const PlanContext& c, const ParallelScene& scene, const MapSizes& sizes,
+                                     CascadeEdges& edges, ShadowPlan& plan) noexcept {
+  if (!c.how.stable || c.how.caches_cascades || !c.views.empty() || c.visible_depths != nullptr ||
+      !c.options.prune.has(PruneRule::equal_cascades))
+    return;
+  for (int cascade = 0; cascade + 2 < edges.count; ++cascade) {
+    const auto at = static_cast<std::size_t>(cascade);
+    const MapSizes::Size &own = sizes.of[at], &next = sizes.of[at + 1];
+    const double begin = edges.depth[at], end = edges.depth[at + 1];
+    if (own.width != next.width || own.height != next.height ||
+        !stable_map_serves_both(c, scene.space.frame, begin, end, edges.depth[at + 2]))
+      continue;
+    omit(plan, {OmissionKind::cascade_without_gain, cascade, begin, end, texels_asked(c.options)});
+    edges.depth[at + 1] = begin;
+    edges.left_to_next |= 1u << at;
+  }
+}
+
 /// Out of line: cascades of one view need not make room for the points of several.
 [[gnu::noinline]] void plan_viewed_cascade(const PlanContext& c, const ParallelScene& scene, int cascade,
                                            DepthRange between, MapSizes::Size size, PlanHistory* history,
@@ -289,14 +309,16 @@ MapRequest request_for(const ParallelScene& scene, const Polytope& body, double 
 void plan_cascades(const PlanContext& c, const ParallelScene& scene, int cascades, const MapSizes& sizes,
                    PlanHistory* history, ShadowPlan& plan) noexcept {
   plan.map_count = plan.omission_count = 0;
-  const CascadeEdges edges = cascade_edges(c, scene, cascades, history);
+  CascadeEdges edges = cascade_edges(c, scene, cascades, history);
   for (int i = 0; i < edges.omission_count; ++i) omit(plan, edges.omission[static_cast<std::size_t>(i)]);
   if (history != nullptr && !c.how.stable) {
     history->edge = edges.depth;
     history->edge_count = edges.count;
   }
+  leave_to_next(c, scene, sizes, edges, plan);
   for (int i = 0; i < cascades; ++i) {
     const auto at = static_cast<std::size_t>(i);
+    if ((edges.left_to_next >> at & 1u) != 0) continue;
     const DepthRange between{edges.depth[at], edges.depth[at + 1]};
     if (c.views.empty()) {
       plan_cascade(c, scene, i, between, sizes.of[at], history, nullptr, plan);

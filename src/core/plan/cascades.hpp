@@ -1,6 +1,8 @@
 // The maps of parallel light along the view: edges, bodies, requests.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
 
 #include "gnomon/extend/body.hpp"
@@ -33,7 +35,8 @@ struct ParallelScene {
 /// The edges between the cascades, with the depths that no cascade covers.
 struct CascadeEdges {
   std::array<double, kMaxMaps + 1> depth{};
-  int count = 0;  // of edges: one more than cascades
+  int count = 0;                   // of edges: one more than cascades
+  std::uint32_t left_to_next = 0;  // bit i: cascade i has no map, and the next one begins where it did
   std::array<Omission, 4> omission;
   int omission_count = 0;
   [[nodiscard]] std::span<const double> edges() const noexcept {

@@ -168,6 +168,10 @@ OmissionText describe(const Omission& o) noexcept {
       what("map of plane %.0f", o.a);
       why("no caster can reach the receivers near the plane");
       break;
+    case OmissionKind::cascade_without_gain:
+      what("cascade %d", o.map);
+      why("the next one's map serves depths %g to %g with the same texels", o.a, o.b);
+      break;
     case OmissionKind::cascade_on_planes:
       what("cascade %d", o.map);
       why("maps of planes serve all receivers between depths %g and %g", o.a, o.b);

@@ -80,7 +80,7 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const Resolved
                       {},
                       *c.how.warp};
   scene.space.frame =
-      c.how.stable ? fixed_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
+      c.how.stable ? grid_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
   if (resolved.follows_depths) c.visible_depths = usable_depths(c, scene.depths, visible);
   if (resolved.parts) {
     plan_parts(c, scene, plan);

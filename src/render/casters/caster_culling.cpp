@@ -47,6 +47,8 @@ std::optional<PruneRule> rule_of(OmissionKind kind) noexcept {
     case OmissionKind::cascade_without_receiver:
     case OmissionKind::cascade_on_planes:
       return PruneRule::empty_cascades;
+    case OmissionKind::cascade_without_gain:
+      return PruneRule::equal_cascades;
     case OmissionKind::cascade_without_caster:
     case OmissionKind::plane_without_caster:
       return PruneRule::casterless_cascades;

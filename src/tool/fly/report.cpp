@@ -162,7 +162,7 @@ std::string omitted_text(std::span<const Omission> omitted, const render::FrameS
     // The plan's own omissions are listed above, map by map.
     const bool of_plan = rule.rule == PruneRule::empty_cascades ||
                          rule.rule == PruneRule::casterless_cascades || rule.rule == PruneRule::empty_faces ||
-                         rule.rule == PruneRule::casterless_faces ||
+                         rule.rule == PruneRule::casterless_faces || rule.rule == PruneRule::equal_cascades ||
                          rule.rule == PruneRule::metric_resolution;
     if (of_plan || (saved.instances == 0 && saved.texels == 0)) continue;
     text += fmt::format("{}{}: {} instances, {} triangles, {} texels", text.empty() ? "" : "; ", rule.what,

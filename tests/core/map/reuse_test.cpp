@@ -70,9 +70,9 @@ TEST(Reuse, the_same_map_twice_is_identical_and_leaves_nothing_to_draw) {
 
 TEST(Reuse, a_camera_that_steps_seven_texels_aside_leaves_a_strip_of_seven) {
   Case c = stable_case();
-  c.light = {0, -1, 0};  // the fixed axes across it are the world's x and z
+  c.light = {0, -1, 0};  // the axes across it are the world's x and z
   const ShadowPlan before = c.plan();
-  const double texel = before.map[0].snap_key.texel;
+  const double texel = before.map[0].snap_key.texel.x;
   EXPECT_NEAR(texel, before.map[0].texel_world.x, 1e-9 * texel);
   c.camera.position.x += 7.0 * texel;
   const ShadowPlan after = c.plan();
@@ -165,7 +165,7 @@ TEST(Reuse, a_world_points_old_texel_plus_the_shift_is_its_new_texel_in_every_cl
     const ShadowPlan before = c.plan();
     if (before.map_count == 0) return;
     Case moved = c;
-    const double reach = 40.0 * before.map[0].snap_key.texel;
+    const double reach = 40.0 * before.map[0].snap_key.texel.x;
     glm::dvec3 step = glm::dvec3(between(-1, 1), between(-1, 1), between(-1, 1)) * reach;
     // Mostly across the light: along it, the depth range moves on.
     const glm::dvec3 light = before.light_direction;

@@ -34,19 +34,20 @@ TEST(Snap, a_default_key_is_that_of_a_map_without_a_grid) {
 }
 
 TEST(Snap, keys_are_equal_where_every_part_is) {
-  const SnapKey key{1, 2, 3, 4, 0.5, true};
-  EXPECT_EQ(key, (SnapKey{1, 2, 3, 4, 0.5, true}));
-  EXPECT_NE(key, (SnapKey{9, 2, 3, 4, 0.5, true}));
-  EXPECT_NE(key, (SnapKey{1, 9, 3, 4, 0.5, true}));
-  EXPECT_NE(key, (SnapKey{1, 2, 9, 4, 0.5, true}));
-  EXPECT_NE(key, (SnapKey{1, 2, 3, 9, 0.5, true}));
-  EXPECT_NE(key, (SnapKey{1, 2, 3, 4, 0.25, true}));
-  EXPECT_NE(key, (SnapKey{1, 2, 3, 4, 0.5, false}));
+  const SnapKey key{1, 2, 3, 4, glm::dvec2(0.5), true};
+  EXPECT_EQ(key, (SnapKey{1, 2, 3, 4, glm::dvec2(0.5), true}));
+  EXPECT_NE(key, (SnapKey{9, 2, 3, 4, glm::dvec2(0.5), true}));
+  EXPECT_NE(key, (SnapKey{1, 9, 3, 4, glm::dvec2(0.5), true}));
+  EXPECT_NE(key, (SnapKey{1, 2, 9, 4, glm::dvec2(0.5), true}));
+  EXPECT_NE(key, (SnapKey{1, 2, 3, 9, glm::dvec2(0.5), true}));
+  EXPECT_NE(key, (SnapKey{1, 2, 3, 4, {0.25, 0.5}, true}));
+  EXPECT_NE(key, (SnapKey{1, 2, 3, 4, {0.5, 0.25}, true}));
+  EXPECT_NE(key, (SnapKey{1, 2, 3, 4, glm::dvec2(0.5), false}));
 }
 
 TEST(Snap, keys_of_maps_without_a_grid_are_equal_to_nothing) {
   EXPECT_NE(SnapKey{}, SnapKey{});
-  EXPECT_NE((SnapKey{1, 2, 3, 4, 0.5, false}), (SnapKey{1, 2, 3, 4, 0.5, false}));
+  EXPECT_NE((SnapKey{1, 2, 3, 4, glm::dvec2(0.5), false}), (SnapKey{1, 2, 3, 4, glm::dvec2(0.5), false}));
 }
 
 TEST(SnapProperty, the_index_is_within_half_a_step_and_moves_by_whole_steps) {

@@ -25,7 +25,8 @@ TEST(Pages, clipmap_levels_are_octaves_of_square_texels) {
   ASSERT_GT(plan.levels.size(), 2u);
   for (const ShadowMap& level : plan.levels) {
     EXPECT_NEAR(level.texel_world.x, level.texel_world.y, 1e-12 * level.texel_world.x);
-    const double octave = std::log2(level.snap_key.texel);
+    EXPECT_EQ(level.snap_key.texel.x, level.snap_key.texel.y);
+    const double octave = std::log2(level.snap_key.texel.x);
     EXPECT_NEAR(octave, std::round(octave), 1e-12);
   }
   street.options.policy = &page_policies::resolution;

@@ -24,7 +24,8 @@ constexpr OmissionKind kKinds[] = {
     OmissionKind::points_left_coarser,      OmissionKind::points_beyond_levels,
     OmissionKind::shape_without_gain,       OmissionKind::plane_without_receiver,
     OmissionKind::plane_without_caster,     OmissionKind::cascade_on_planes,
-    OmissionKind::faces_less_divided,       OmissionKind::receiver_near_light};
+    OmissionKind::faces_less_divided,       OmissionKind::receiver_near_light,
+    OmissionKind::cascade_without_gain};
 
 TEST(Omission, the_list_above_holds_every_kind) {
   for (std::size_t i = 0; i < std::size(kKinds); ++i) EXPECT_EQ(static_cast<std::size_t>(kKinds[i]), i);

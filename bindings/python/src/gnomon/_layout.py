@@ -62,6 +62,7 @@ PLANE_WITHOUT_CASTER = 20
 CASCADE_ON_PLANES = 21
 FACES_LESS_DIVIDED = 22
 RECEIVER_NEAR_LIGHT = 23
+CASCADE_WITHOUT_GAIN = 24
 IGNORED_PARTITION = 0
 IGNORED_SPLIT_SCHEME = 1
 IGNORED_SPLIT_OVERLAP = 2
@@ -360,7 +361,7 @@ class map(ctypes.Structure):
         ("snap_y", ctypes.c_int64),
         ("snap_depth_near", ctypes.c_int64),
         ("snap_depth_far", ctypes.c_int64),
-        ("snap_texel", ctypes.c_double),
+        ("snap_texel", ctypes.c_double * 2),
         ("m_s_max", ctypes.c_double),
         ("m_t_max", ctypes.c_double),
         ("m_max", ctypes.c_double),
@@ -396,14 +397,14 @@ class map(ctypes.Structure):
     snap_y: int
     snap_depth_near: int
     snap_depth_far: int
-    snap_texel: float
+    snap_texel: ctypes.Array[ctypes.c_double]
     m_s_max: float
     m_t_max: float
     m_max: float
     storage: float
 
 
-assert ctypes.sizeof(map) == 1704
+assert ctypes.sizeof(map) == 1712
 
 
 class omission(ctypes.Structure):

@@ -92,7 +92,7 @@ pub const GNOMON_FACE_WITHOUT_RECEIVER: i32 = 9;
 pub const GNOMON_FACE_WITHOUT_CASTER: i32 = 10;
 /// a smaller map suffices; a: bound of m at full size, b: now
 pub const GNOMON_RESOLUTION_WITHOUT_GAIN: i32 = 11;
-/// nearer than a to the light nothing casts; b: casters there
+/// b casters reach below depth a along the map's axis: cut
 pub const GNOMON_DEPTH_NEAR_LIGHT: i32 = 12;
 /// a: which, GNOMON_IGNORED_PARTITION and others
 pub const GNOMON_OPTION_IGNORED: i32 = 13;
@@ -116,6 +116,8 @@ pub const GNOMON_CASCADE_ON_PLANES: i32 = 21;
 pub const GNOMON_FACES_LESS_DIVIDED: i32 = 22;
 /// receivers nearer than a to the light are lit; b: their boxes
 pub const GNOMON_RECEIVER_NEAR_LIGHT: i32 = 23;
+/// the next map serves it with the same texels; a, b: depths
+pub const GNOMON_CASCADE_WITHOUT_GAIN: i32 = 24;
 /// split_partition
 pub const GNOMON_IGNORED_PARTITION: i32 = 0;
 /// split_scheme
@@ -388,7 +390,7 @@ pub struct gnomon_plan_options {
     pub warp_planes: [[f64; 7]; 3],
     /// Frames from one plan of a cascade behind the first to its next, 1..64; default 1. More need a history.
     pub cadence_frames: i32,
-    /// bits of GNOMON_PRUNE_RULES; default: the exact ones, and light_depths
+    /// bits of GNOMON_PRUNE_RULES; default: exact ones, light_depths, equal_cascades
     pub prune: u32,
     /// largest step of the eye from frame to frame, world units, >= 0; default 0
     pub cadence_largest_step: f64,
@@ -490,8 +492,8 @@ pub struct gnomon_map {
     pub snap_depth_near: i64,
     /// depth range of the grid, depth steps
     pub snap_depth_far: i64,
-    /// side of a texel of the grid, world units
-    pub snap_texel: f64,
+    /// sides of a texel of the grid, world units
+    pub snap_texel: [f64; 2],
     /// largest perspective error along the map's x and y, screen pixels per texel
     pub m_s_max: f64,
     /// largest perspective error along the map's x and y, screen pixels per texel
@@ -1257,7 +1259,7 @@ macro_rules! each_layout {
         $check!(gnomon_view, 48, size: 0, reserved: 4, camera: 8, depths: 16, points: 24, normals: 32, point_count: 40);
         $check!(gnomon_plan_options, 488, size: 0, cascades: 4, resolution_max_size: 8, resolution_stable_size_steps: 12, resolution_max_error: 16, resolution_texel_budget: 24, resolution_prune_error: 32, fit: 40, split_scheme: 44, split_lambda: 48, split_pseudo_near: 56, split_range: 64, split_selection: 68, split_given: 72, split_overlap: 128, split_partition: 136, split_face_slices: 140, warp: 144, warp_shape: 148, warp_objective: 152, reserved: 156, warp_focus: 160, warp_focus_weight: 208, warp_planes: 216, cadence_frames: 384, prune: 388, cadence_largest_step: 392, cadence_largest_turn: 400, filter_texels: 408, filter_world: 416, bias_constant_texels: 424, bias_slope_texels: 432, bias_normal_offset_texels: 440, bias_max_slope: 448, light_near_share: 456, clip_space: 464);
         $check!(gnomon_texel_rect, 16, x: 0, y: 4, width: 8, height: 12);
-        $check!(gnomon_map, 1704, size: 0, cascade: 4, clip_from_world: 8, clip_from_camera_relative: 136, depth_begin: 200, depth_end: 208, overlap: 216, light_world: 224, width: 256, height: 260, shape: 264, warp: 268, shape_parameters: 272, kappa: 392, texel_world: 400, texel_world_max: 416, depth_range_world: 432, bias_constant: 440, bias_slope: 448, bias_normal_offset: 456, filter_margin_texels: 464, cull_plane_count: 468, cull_planes: 472, select_plane_count: 1496, snap_valid: 1500, select_planes: 1504, snap_x: 1632, snap_y: 1640, snap_depth_near: 1648, snap_depth_far: 1656, snap_texel: 1664, m_s_max: 1672, m_t_max: 1680, m_max: 1688, storage: 1696);
+        $check!(gnomon_map, 1712, size: 0, cascade: 4, clip_from_world: 8, clip_from_camera_relative: 136, depth_begin: 200, depth_end: 208, overlap: 216, light_world: 224, width: 256, height: 260, shape: 264, warp: 268, shape_parameters: 272, kappa: 392, texel_world: 400, texel_world_max: 416, depth_range_world: 432, bias_constant: 440, bias_slope: 448, bias_normal_offset: 456, filter_margin_texels: 464, cull_plane_count: 468, cull_planes: 472, select_plane_count: 1496, snap_valid: 1500, select_planes: 1504, snap_x: 1632, snap_y: 1640, snap_depth_near: 1648, snap_depth_far: 1656, snap_texel: 1664, m_s_max: 1680, m_t_max: 1688, m_max: 1696, storage: 1704);
         $check!(gnomon_omission, 32, kind: 0, map: 4, a: 8, b: 16, saves_texels: 24);
         $check!(gnomon_text, 192, what: 0, why: 48);
         $check!(gnomon_plan, 160, size: 0, map_size: 4, maps: 8, omissions: 16, map_room: 24, omission_room: 28, status: 32, map_count: 36, omission_count: 40, selection: 44, sizes_vary: 48, reserved: 52, origin: 56, light_direction: 80, clip_space: 104, bias_constant_texels: 128, bias_slope_texels: 136, bias_normal_offset_texels: 144, bias_max_slope: 152);
