@@ -1,5 +1,6 @@
 // Which names have warps, shapes, splits and other choices? The lists of the core, by index.
 #include <cstring>
+#include <iterator>
 
 #include "c/convert.hpp"
 #include "gnomon/version.hpp"
@@ -27,9 +28,14 @@ Entry enumerator(Enum last, std::size_t index) noexcept {
   return {to_string(static_cast<Enum>(index)).data(), ""};
 }
 
+// Not by prune_rules(): its premises and proofs would go into every web page.
 Entry prune_rule(std::size_t index) noexcept {
-  if (index >= prune_rules().size()) return {};
-  return {prune_rules()[index].name.data(), prune_rules()[index].what.data()};
+  constexpr Entry kRules[] = {
+#define GNOMON_PRUNE_RULE(name, certainty, source, what, premise, proof) {#name, what},
+#include "gnomon/prune_rules.def"
+#undef GNOMON_PRUNE_RULE
+  };
+  return index < std::size(kRules) ? kRules[index] : Entry{};
 }
 
 Entry status(std::size_t index) noexcept {

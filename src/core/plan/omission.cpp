@@ -170,7 +170,7 @@ OmissionText describe(const Omission& o) noexcept {
       break;
     case OmissionKind::cascade_without_gain:
       what("cascade %d", o.map);
-      why("the next one's map serves depths %g to %g with the same texels", o.a, o.b);
+      why("the next one serves depths %g to %g with the same texels", o.a, o.b);
       break;
     case OmissionKind::cascade_on_planes:
       what("cascade %d", o.map);
