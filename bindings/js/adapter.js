@@ -23,9 +23,9 @@ export function cameraUpTo(gnomon, matrices, far) {
 const TURNED_SLOPE_TEXELS = 0.45;
 
 /** A plan, with the slope that a rasterizer takes for too little. */
-export function planForRasterizer(gnomon, input) {
+export function planForRasterizer(gnomon, input, turnedSlopeTexels = TURNED_SLOPE_TEXELS) {
   const plan = gnomon.plan(input);
-  if (plan.maps.some(({ snapValid, lightWorld }) => snapValid && lightWorld[3] === 0)) plan.biasSlopeTexels += TURNED_SLOPE_TEXELS;
+  if (plan.maps.some(({ snapValid, lightWorld }) => snapValid && lightWorld[3] === 0)) plan.biasSlopeTexels += turnedSlopeTexels;
   return plan;
 }
 

@@ -253,17 +253,24 @@ std::int64_t snap_index(double value, double step) noexcept {
   return static_cast<std::int64_t>(index);
 }
 
-bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, double begin, double middle,
-                            double end) noexcept {
-  const Box receivers = bounds_in_steps(c.bounds.receivers);
-  const auto sides = [&](double from, double to) {
-    const double chord = longest_chord_of(c, from, to);
-    const glm::dvec3 size = receivers.max - receivers.min;
+Box stable_bounds(const PlanContext& c) noexcept {
+  return bounds_in_steps(c.bounds.receivers);
+}
+
+bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, const Box& receivers, double begin,
+                            double middle, double end) noexcept {
+  const glm::dvec3 size = receivers.max - receivers.min;
+  const double first = longest_chord_of(c, begin, middle);
+  // Sides grow with the chord until they hold all receivers.
+  const glm::dvec2 all(glm::dot(glm::abs(frame.x), size), glm::dot(glm::abs(frame.y), size));
+  constexpr double kRounding = 1.0 - 1e-12;
+  if (first < kRounding * max_of(all.x, all.y)) return false;
+  const auto sides = [&](double to, double chord) {
     return rounded_sides(c, to, {farthest_along(frame.x, size, chord), farthest_along(frame.y, size, chord)},
                          chord);
   };
-  const glm::dvec2 both = sides(begin, end);
-  return both == sides(begin, middle) && both == sides(middle, end);
+  const glm::dvec2 both = sides(end, longest_chord_of(c, begin, end));
+  return both == sides(middle, first) && both == sides(end, longest_chord_of(c, middle, end));
 }
 
 void stable_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept {
