@@ -435,7 +435,8 @@ struct WarpOptions {
   /// The error that a warp must lower to be used.
   Objective objective = Objective::picture;
   /// World-space box whose error counts `focus_weight` times: a hero, a cockpit, a table top. Everything else
-  /// stays in the map, with larger texels. An empty box, the default, means none.
+  /// stays in the map, with larger texels. A box that is small in the view holds few of the judged points, and
+  /// may gain nothing. An empty box, the default, means none.
   Box focus;
   double focus_weight = 4.0;  ///< 1..1e6
   /// Planes that get a map each, besides the cascades, in which every texel is one pixel's image on the plane

@@ -109,7 +109,7 @@ struct ShadowMap {
   double m_max = 0.0;
   double storage = 0.0;  ///< texels per screen pixel for m <= 1 everywhere in this slice (vertex objective)
 
-  /// The texels and how they lie (extend/shape.hpp), for look-ups.
+  /// The texels and how they lie, for look-ups. To call it, include extend/shape.hpp, which has the type.
   [[nodiscard]] TexelGrid texels() const noexcept;
 };
 
