@@ -21,7 +21,8 @@ enum class Fit : std::uint8_t {
   rotated,  ///< as tight, and the rectangle may turn: the least area where that lowers the objective
   stable,   ///< a rectangle that holds the slice's receivers wherever the camera looks, snapped to whole
             ///< texels: a stable grid. Its sides depend on the slice, the light and the bounds of all
-            ///< receivers, in steps. So give all of them, not those in view alone
+            ///< receivers, in steps. So give all of them, not those in view alone, and a PlanHistory where
+            ///< receivers move
   warped_stable,  ///< as tight with room to spare, and kept as it is while the view stays inside. With a
                   ///< PlanHistory (motion.hpp) a warped grid that rarely changes
 };
@@ -435,8 +436,8 @@ struct WarpOptions {
   /// The error that a warp must lower to be used.
   Objective objective = Objective::picture;
   /// World-space box whose error counts `focus_weight` times: a hero, a cockpit, a table top. Everything else
-  /// stays in the map, with larger texels. A box that is small in the view holds few of the judged points, and
-  /// may gain nothing. An empty box, the default, means none.
+  /// stays in the map, with larger texels. A box that is small in the view holds few of the points that count,
+  /// and may gain nothing. An empty box, the default, means none.
   Box focus;
   double focus_weight = 4.0;  ///< 1..1e6
   /// Planes that get a map each, besides the cascades, in which every texel is one pixel's image on the plane

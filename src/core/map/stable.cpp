@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/matrix.hpp"
 #include "geometry/vector.hpp"
 #include "geometry/visible.hpp"
 #include "gnomon/extend/body.hpp"
@@ -109,6 +110,21 @@ Box bounds_in_steps(const Boxes& receivers) noexcept {
   return all;
 }
 
+/// Sides of a box that holds them all, in steps: receivers that move at the ends of their bounds, as one that
+/// walks and jumps on flat ground, change the texels of a grid rarely. `chord`: of the slice.
+glm::dvec3 sizes_in_steps(const Box& receivers, double chord) noexcept {
+  const glm::dvec3 size = receivers.max - receivers.min;
+  // Of a thin side, steps that hardly make the others' texels larger.
+  constexpr double kSteps = 8.0, kThin = 1.0 / 16.0;
+  const double thin = kThin * min_of(chord, max_of(size.x, max_of(size.y, size.z)));
+  glm::dvec3 stepped = size;
+  for (int i = 0; i < 3; ++i) {
+    const double step = elementary::power_of_two_below(max_of(size[i], thin)) / kSteps;
+    if (step > 0.0) stepped[i] = std::ceil(size[i] / step) * step;
+  }
+  return stepped;
+}
+
 /// Where receivers of the slice lie, relative to the camera, and how long sides hold them wherever the camera
 /// looks.
 struct Extent {
@@ -135,13 +151,14 @@ Extent extent_of_slice(const PlanContext& c, const MapRequest& request, const Bo
   Extent extent{};
   extent.chord = longest_chord_of(c, request.begin, request.end);
   const Polytope slice = frustum_slice(c.camera, c.axes, request.begin, request.end);
+  const glm::dvec3 size = sizes_in_steps(receivers, extent.chord);
   Polytope held = slice;
   clip(held, relative_to(receivers, c.camera.position));
   for (int i = 0; i < 2; ++i) {
     const glm::dvec3& axis = i == 0 ? request.space.frame.x : request.space.frame.y;
     const Span span = span_along(axis, held.empty() ? slice : held);
     extent.middle[i] = 0.5 * (span.low + span.high);
-    extent.side[i] = farthest_along(axis, receivers.max - receivers.min, extent.chord);
+    extent.side[i] = farthest_along(axis, size, extent.chord);
   }
   return extent;
 }
@@ -154,6 +171,7 @@ Extent extent_of_slice(const PlanContext& c, const MapRequest& request, const Bo
   Extent extent{};
   extent.chord = c.views.empty() ? longest_chord_of(c, request.begin, request.end) : longest_distance(slices);
   const glm::dvec3 centre = 0.5 * (receivers.min + receivers.max) - c.camera.position;
+  const glm::dvec3 size = sizes_in_steps(receivers, extent.chord);
   for (int i = 0; i < 2; ++i) {
     const glm::dvec3& axis = i == 0 ? request.space.frame.x : request.space.frame.y;
     Span all;
@@ -162,7 +180,7 @@ Extent extent_of_slice(const PlanContext& c, const MapRequest& request, const Bo
       all = {min_of(all.low, span.low - request.room), max_of(all.high, span.high + request.room)};
     }
     // Either side holds them all: that of the slices, and that of the receivers' bounds.
-    const double across = 0.5 * glm::dot(glm::abs(axis), receivers.max - receivers.min);
+    const double across = 0.5 * glm::dot(glm::abs(axis), size);
     extent.side[i] = min_of(extent.chord + 2.0 * request.room, 2.0 * across);
     const double middle = glm::dot(axis, centre);
     const double from = max_of(all.low, middle - across), to = min_of(all.high, middle + across);
@@ -187,13 +205,31 @@ glm::dvec2 rounded_sides(const PlanContext& c, double end, const glm::dvec2& sid
   return rounded;
 }
 
+/// The last frame's sides where they are long enough, and not much longer: receivers that go up and down at
+/// the end of their bounds must not change the texels each time.
+glm::dvec2 kept_sides(const PlanContext& c, const MapRequest& request, const glm::dvec2& sides) noexcept {
+  const PlanHistory::Map* const last = request.last;
+  if (last == nullptr || last->width != request.slot.width) return sides;
+  constexpr double kLonger = 1.25;
+  glm::dvec2 kept = sides;
+  for (int i = 0; i < 2; ++i) {
+    const double texel = 2.0 / (last->width * glm::length(glm::dvec3(row_of(last->gl_from_world, i))));
+    const double side = texel * (last->width - 1 - 2 * last->filter_margin_texels);
+    if (!(side > sides[i] * (1.0 - 1e-9) && side < sides[i] * kLonger)) continue;
+    // In the steps that it was rounded to, so that it is the same bits.
+    const double unit = elementary::power_of_two_below(side) / c.options.resolution.stable_size_steps;
+    kept[i] = max_of(sides[i], std::floor(side / unit + 0.5) * unit);
+  }
+  return kept;
+}
+
 /// Out of line: the map need not make room for the slice.
 [[gnu::noinline]] Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {
   Grid grid{};
   const Box receivers = bounds_in_steps(c.bounds.receivers);
   const Extent extent = c.views.empty() && request.room == 0.0 ? extent_of_slice(c, request, receivers)
                                                                : extent_of_slices(c, request, receivers);
-  const glm::dvec2 sides = rounded_sides(c, request.end, extent.side, extent.chord);
+  const glm::dvec2 sides = kept_sides(c, request, rounded_sides(c, request.end, extent.side, extent.chord));
   // One texel is the room that snapping moves within.
   map.filter_margin_texels = border_texels(c.options, map.width - 1, 1.0 / min_of(sides.x, sides.y));
   const double inside = map.width - 1 - 2 * map.filter_margin_texels;
@@ -259,13 +295,14 @@ Box stable_bounds(const PlanContext& c) noexcept {
 
 bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, const Box& receivers, double begin,
                             double middle, double end) noexcept {
-  const glm::dvec3 size = receivers.max - receivers.min;
   const double first = longest_chord_of(c, begin, middle);
+  const glm::dvec3 least = sizes_in_steps(receivers, first);
   // Sides grow with the chord until they hold all receivers.
-  const glm::dvec2 all(glm::dot(glm::abs(frame.x), size), glm::dot(glm::abs(frame.y), size));
+  const glm::dvec2 all(glm::dot(glm::abs(frame.x), least), glm::dot(glm::abs(frame.y), least));
   constexpr double kRounding = 1.0 - 1e-12;
   if (first < kRounding * max_of(all.x, all.y)) return false;
   const auto sides = [&](double to, double chord) {
+    const glm::dvec3 size = sizes_in_steps(receivers, chord);
     return rounded_sides(c, to, {farthest_along(frame.x, size, chord), farthest_along(frame.y, size, chord)},
                          chord);
   };
