@@ -128,8 +128,8 @@ struct MapResult {
 void focused_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept;
 /// Parallel light: a map whose texel grid does not move with the camera.
 void stable_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept;
-/// What the sides of stable maps span at most: the bounds of all receivers, in steps.
-[[nodiscard]] Box stable_bounds(const PlanContext& c) noexcept;
+/// Of all receivers, in view or not, in world space.
+[[nodiscard]] Box receiver_bounds(const PlanContext& c) noexcept;
 /// Whether a stable map of both slices has the very texels that a map of each of them alone has: where its
 /// sides span the bounds, not the slices. For one view without room.
 [[nodiscard]] bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, const Box& receivers,

@@ -49,12 +49,13 @@ Slices slices_of(const PlanContext& c, const MapRequest& request) noexcept {
   return slices;
 }
 
-/// The longest distance between two corners of any slices. For one view from its image's edges, so that it is
+/// The longest distance between two corners of the one view's slice: from its image's edges, so that it is
 /// the same bits every frame.
 double longest_chord_of(const PlanContext& c, double begin, double end) noexcept {
   return longest_chord(c.camera.left, c.camera.right, c.camera.bottom, c.camera.top, c.camera.orthographic,
                        begin, end);
 }
+/// Between two corners of any slices.
 double longest_distance(const Slices& slices) noexcept {
   double longest = 0.0;
   for (const Polytope& a : slices.all()) {
@@ -94,33 +95,18 @@ double farthest_along(const glm::dvec3& axis, const glm::dvec3& size, double cho
   return glm::dot(offset, glm::abs(axis));
 }
 
-/// A box that holds all receivers, in whole steps in the world: neither the camera nor receivers that move
-/// inside of it change it, and those at its border do rarely.
-Box bounds_in_steps(const Boxes& receivers) noexcept {
-  Box all = casters_inside({}, receivers, glm::dvec3(0.0), {0.0, 0.0, 1.0}).bounds;
-  constexpr double kSteps = 32.0, kMaxSteps = 0x1p52;
-  for (int i = 0; i < 3; ++i) {
-    const double size = all.max[i] - all.min[i],
-                 farthest = max_of(std::abs(all.min[i]), std::abs(all.max[i]));
-    const double step = elementary::power_of_two_below(size) / kSteps;
-    if (!(size > 0.0 && farthest < kMaxSteps * step)) continue;
-    all.min[i] = std::floor(all.min[i] / step) * step;
-    all.max[i] = std::ceil(all.max[i] / step) * step;
-  }
-  return all;
-}
-
-/// Sides of a box that holds them all, in steps: receivers that move at the ends of their bounds, as one that
-/// walks and jumps on flat ground, change the texels of a grid rarely. `chord`: of the slice.
+/// Sides of a box that holds all receivers, in steps: receivers that move at the ends of their bounds, as one
+/// that walks and jumps on flat ground, change the texels of a grid rarely. `chord`: of the slice.
 glm::dvec3 sizes_in_steps(const Box& receivers, double chord) noexcept {
   const glm::dvec3 size = receivers.max - receivers.min;
-  // Of a thin side, steps that hardly make the others' texels larger.
-  constexpr double kSteps = 8.0, kThin = 1.0 / 16.0;
+  // Of a thin side, steps that hardly make the others' texels larger; and off round numbers, which sizes are
+  // by design, so that their rounding is no step.
+  constexpr double kSteps = 8.0, kThin = 1.0 / 16.0, kOff = 1.0 / 3.0;
   const double thin = kThin * min_of(chord, max_of(size.x, max_of(size.y, size.z)));
   glm::dvec3 stepped = size;
   for (int i = 0; i < 3; ++i) {
     const double step = elementary::power_of_two_below(max_of(size[i], thin)) / kSteps;
-    if (step > 0.0) stepped[i] = std::ceil(size[i] / step) * step;
+    if (step > 0.0) stepped[i] = (std::ceil(size[i] / step - kOff) + kOff) * step;
   }
   return stepped;
 }
@@ -226,7 +212,7 @@ glm::dvec2 kept_sides(const PlanContext& c, const MapRequest& request, const glm
 /// Out of line: the map need not make room for the slice.
 [[gnu::noinline]] Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {
   Grid grid{};
-  const Box receivers = bounds_in_steps(c.bounds.receivers);
+  const Box receivers = receiver_bounds(c);
   const Extent extent = c.views.empty() && request.room == 0.0 ? extent_of_slice(c, request, receivers)
                                                                : extent_of_slices(c, request, receivers);
   const glm::dvec2 sides = kept_sides(c, request, rounded_sides(c, request.end, extent.side, extent.chord));
@@ -289,8 +275,8 @@ std::int64_t snap_index(double value, double step) noexcept {
   return static_cast<std::int64_t>(index);
 }
 
-Box stable_bounds(const PlanContext& c) noexcept {
-  return bounds_in_steps(c.bounds.receivers);
+Box receiver_bounds(const PlanContext& c) noexcept {
+  return casters_inside({}, c.bounds.receivers, glm::dvec3(0.0), {0.0, 0.0, 1.0}).bounds;
 }
 
 bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, const Box& receivers, double begin,

@@ -217,7 +217,7 @@ void fit_cascade(const PlanContext& c, const MapRequest& request, MapResult& res
   if (!c.how.stable || c.how.caches_cascades || !c.views.empty() || c.visible_depths != nullptr ||
       !c.options.prune.has(PruneRule::equal_cascades))
     return;
-  const Box receivers = stable_bounds(c);
+  const Box receivers = receiver_bounds(c);
   for (int cascade = 0; cascade + 2 < edges.count; ++cascade) {
     const auto at = static_cast<std::size_t>(cascade);
     const MapSizes::Size &own = sizes.of[at], &next = sizes.of[at + 1];
