@@ -177,12 +177,10 @@ bool names_partition_as_warp(const Fields& fields) {
   return true;
 }
 
-PlanOptions options_from(const json& value) {
-  std::vector<std::string_view> known;
+/// `known`: what else may stand beside them.
+PlanOptions options_from(const json& value, std::vector<std::string_view> known = {}) {
   for (const PlanField& field : plan_fields()) known.push_back(field.key);
   for (const auto& [other, key] : kOtherNames) known.push_back(other);
-  known.push_back("pages");
-  known.push_back("lights");
   const Fields fields(value, "options", known);
   for (const auto& [other, key] : kOtherNames) {
     if (fields.has(other) && fields.has(key))
@@ -293,7 +291,7 @@ Case read_case(std::string_view json_text) {
   result.receivers = fields.boxes("receivers");
   result.casters = fields.boxes("casters");
   if (fields.has("options")) {
-    result.options = options_from(fields.at("options"));
+    result.options = options_from(fields.at("options"), {"pages", "lights"});
     const json& options = fields.at("options");
     if (options.contains("pages")) result.pages = pages_from(options.at("pages"));
     if (options.contains("lights")) result.light_options = light_options_from(options.at("lights"));
@@ -324,12 +322,7 @@ Case load_case(const std::filesystem::path& file) {
 }
 
 PlanOptions read_plan_options(std::string_view json_text) {
-  const json options = parse_json(json_text);
-  for (const char* const of_cases : {"pages", "lights"}) {
-    if (options.is_object() && options.contains(of_cases))
-      throw CaseError(std::string("options.") + of_cases + ": is only read in a case");
-  }
-  return options_from(options);
+  return options_from(parse_json(json_text));
 }
 
 std::string invalid_input_text(std::string_view invalid_field) {
