@@ -20,6 +20,11 @@ namespace gnomon::tool {
 
 /// Sets the choice `key` by its name; false where the name is unknown.
 [[nodiscard]] bool set_plan_choice(std::string_view key, std::string_view name, PlanOptions& options);
+/// Whether a grid of this fit only stays where it is from frame to frame: a warped one always, a stable one
+/// beside receivers that move.
+[[nodiscard]] constexpr bool needs_history(Fit fit) noexcept {
+  return fit == Fit::warped_stable || fit == Fit::stable;
+}
 /// The names that a choice takes.
 [[nodiscard]] std::vector<std::string> plan_choice_names(std::string_view key);
 

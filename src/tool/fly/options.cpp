@@ -83,8 +83,7 @@ Options resolved(const Request& request) {
   options.out = request.out;
   if (request.lambda_given && !request.split_given) (void)set_plan_choice("split", "practical", options.plan);
   if (request.stable) (void)set_plan_choice("fit", "stable", options.plan);
-  // A warped grid is only stable from frame to frame, and any grid beside receivers that move.
-  if (options.plan.fit == Fit::warped_stable || options.plan.fit == Fit::stable) options.history = true;
+  if (needs_history(options.plan.fit)) options.history = true;
   render::set_margin(options.filter, options.plan);
   options.prune = options.plan.prune;
   resolve_resolution(options);

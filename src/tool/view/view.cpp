@@ -191,8 +191,7 @@ Options resolved(const Request& request) {
   if (is_given(request, "--lambda") && !is_given(request, "--split"))
     (void)set_plan_choice("split", "practical", state.a.plan);
   check_page_size(state.a.pages);
-  // A warped grid is only stable from frame to frame.
-  if (state.a.plan.fit == Fit::warped_stable) state.a.history = true;
+  if (needs_history(state.a.plan.fit)) state.a.history = true;
   state.b = state.a;
   resolve_light(request, state.light);
   resolve_camera(request.camera, state);
