@@ -349,6 +349,48 @@ TEST(Prune, depths_pulled_to_what_is_there_change_no_more_than_their_rounding) {
   EXPECT_GT(changed, 0) << "the rule is exact, and should say so";
 }
 
+TEST(Prune, stable_cascades_that_the_next_one_serves_leave_the_mask_as_it_is) {
+  int spared = 0;
+  std::uint64_t saved = 0;
+  std::size_t shadowed_pixels = 0;
+  for (const char* const scene : {"fence", "trees", "city"}) {
+    Pair pair(load_builtin(scene));
+    const Box& all = pair.scene.bounds_world;
+    const glm::dvec3 middle = 0.5 * (all.min + all.max), size = all.max - all.min;
+    for (const glm::dvec3 from : {glm::dvec3(1.0, 0.6, 0.3), glm::dvec3(-0.7, 0.5, 1.0)}) {
+      // From outside: what each cascade's map spans is the scene.
+      const glm::dvec3 eye = middle + from * (0.6 * glm::length(size));
+      const Camera camera = perspective_camera(eye, middle - eye, {0, 1, 0}, 1.0, 16.0 / 9.0, 0.1,
+                                               4.0 * glm::length(size), kWidth, kHeight);
+      PlanOptions options;
+      options.resolution.max_size = kMapSize;
+      options.fit = Fit::stable;
+      options.cascades = 4;
+      const FilterSettings filter = parse_filter("hard").settings;
+      set_margin(filter, options);
+      const DirectionalLight sun{{0.4, -1.0, 0.3}};
+      const ShadowPlan few = make_plan({camera}, sun, pair.bounds(), options);
+      const PruneRules without = options.prune = options.prune.without(PruneRule::equal_cascades);
+      const ShadowPlan more = make_plan({camera}, sun, pair.bounds(), options);
+      const FrameStats stats =
+          pair.pruned.draw(few, camera, pair.pruned.prepare(filter), mask_only(default_prune_rules()));
+      pair.full.draw(more, camera, pair.full.prepare(filter), mask_only(without));
+      std::uint64_t texels = stats.texels;
+      for (const PruneSaving& of_rule : stats.saved) texels += of_rule.texels;
+      EXPECT_EQ(texels, 4u * kMapSize * kMapSize) << scene;
+      EXPECT_LE(few.map_count, more.map_count) << scene;
+      spared += more.map_count - few.map_count;
+      saved += stats.saved[static_cast<std::size_t>(PruneRule::equal_cascades)].maps;
+      const FloatImage mask = pair.full.mask();
+      shadowed_pixels += shadowed(mask);
+      EXPECT_LE(differing(pair.pruned.mask(), mask), 2u) << scene;
+    }
+  }
+  EXPECT_GT(spared, 1);
+  EXPECT_GE(saved, static_cast<std::uint64_t>(spared));  // also those that hold no receiver in view
+  EXPECT_GT(shadowed_pixels, 500u);
+}
+
 TEST(Prune, a_filter_that_chooses_from_depths_reads_back_only_maps_that_changed) {
   const Scene scene = load_builtin("hangar");
   const std::vector<Box> boxes = boxes_of(scene);
