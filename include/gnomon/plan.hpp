@@ -43,7 +43,7 @@ enum class OmissionKind : std::uint8_t {
   face_without_receiver,     ///< of a solid round the light: no visible receiver in it within range and cone
   face_without_caster,       ///< of a solid round the light: no caster between it and its receivers
   resolution_without_gain,   ///< a smaller map meets the requested bound of m; a: bound at full size, b: now
-  depth_near_light,          ///< b casters reach below depth a along the map's axis, and cast none there
+  depth_near_light,          ///< nothing casts nearer than depth a on the map's axis; b: casters cut there
   option_ignored,            ///< an option that this light or partition has no use for; a: IgnoredOption
   view_without_receiver,     ///< of plan_views: no receiver in view; a: index of the camera
   pages_coarsened,           ///< of plan_pages: the pool is too small; a: requested error, b: planned error
@@ -55,7 +55,7 @@ enum class OmissionKind : std::uint8_t {
   cascade_on_planes,       ///< maps of warp.planes serve all of it; a: depth_begin, b: depth_end
   faces_less_divided,      ///< no map is left for a slice that pays; a: slices of that face, b: face_slices
   receiver_near_light,     ///< receivers nearer than a to the light have no map, and are lit; b: their boxes
-  cascade_without_gain,    ///< a stable map serves both with the same texels; a: depth_begin, b: depth_end
+  cascade_without_gain,    ///< the next map serves it with the same texels; a: depth_begin, b: depth_end
 };
 /// The option that OmissionKind::option_ignored names.
 enum class IgnoredOption : std::uint8_t {

@@ -337,7 +337,7 @@ typedef struct gnomon_plan_options {
 
   /// Frames from one plan of a cascade behind the first to its next, 1..64; default 1. More need a history.
   int32_t cadence_frames;
-  uint32_t prune;               ///< bits of GNOMON_PRUNE_RULES; default: exact ones, light_depths, equal_cascades
+  uint32_t prune;  ///< bits of GNOMON_PRUNE_RULES; default: the exact ones, light_depths and equal_cascades
   double cadence_largest_step;  ///< largest step of the eye from frame to frame, world units, >= 0; default 0
   double cadence_largest_turn;  ///< largest turn of the camera from frame to frame, radians, 0..pi; default 0
 
@@ -420,7 +420,7 @@ enum {
   GNOMON_FACE_WITHOUT_RECEIVER = 9,     ///< of a local light
   GNOMON_FACE_WITHOUT_CASTER = 10,      ///< of a local light
   GNOMON_RESOLUTION_WITHOUT_GAIN = 11,  ///< a smaller map suffices; a: bound of m at full size, b: now
-  GNOMON_DEPTH_NEAR_LIGHT = 12,         ///< b casters reach below depth a along the map's axis: cut
+  GNOMON_DEPTH_NEAR_LIGHT = 12,         ///< nearer than depth a on the map's axis nothing casts; b: casters
   GNOMON_OPTION_IGNORED = 13,           ///< a: which, GNOMON_IGNORED_PARTITION and others
   GNOMON_VIEW_WITHOUT_RECEIVER = 14,    ///< of gnomon_plan_views; a: index of the camera
   GNOMON_PAGES_COARSENED = 15,          ///< the pool is too small; a: requested error, b: planned error

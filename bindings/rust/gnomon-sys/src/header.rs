@@ -92,7 +92,7 @@ pub const GNOMON_FACE_WITHOUT_RECEIVER: i32 = 9;
 pub const GNOMON_FACE_WITHOUT_CASTER: i32 = 10;
 /// a smaller map suffices; a: bound of m at full size, b: now
 pub const GNOMON_RESOLUTION_WITHOUT_GAIN: i32 = 11;
-/// b casters reach below depth a along the map's axis: cut
+/// nearer than depth a on the map's axis nothing casts; b: casters
 pub const GNOMON_DEPTH_NEAR_LIGHT: i32 = 12;
 /// a: which, GNOMON_IGNORED_PARTITION and others
 pub const GNOMON_OPTION_IGNORED: i32 = 13;
@@ -390,7 +390,7 @@ pub struct gnomon_plan_options {
     pub warp_planes: [[f64; 7]; 3],
     /// Frames from one plan of a cascade behind the first to its next, 1..64; default 1. More need a history.
     pub cadence_frames: i32,
-    /// bits of GNOMON_PRUNE_RULES; default: exact ones, light_depths, equal_cascades
+    /// bits of GNOMON_PRUNE_RULES; default: the exact ones, light_depths and equal_cascades
     pub prune: u32,
     /// largest step of the eye from frame to frame, world units, >= 0; default 0
     pub cadence_largest_step: f64,
