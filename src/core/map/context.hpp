@@ -48,11 +48,10 @@ struct PlanContext {
   const HeldDepths* held = nullptr;       // of Objective::p95 and max, as WarpInput::held
   double caster_reach = 0.0;              // of casters from the camera along any axis, for Objective::picture
   double nearest_receiver = 0.0;  // no receiver in view has a smaller view depth, for the other objectives
+  Box receivers = {};             // of Fit::stable: bounds of all, in view or not, world space
   bool same_light = false;        // as in the last frame, to the last bit
   std::span<const SharedView> views = {};  // cameras that share the maps; empty: `camera` alone
-  std::int64_t frame = 0;                  // of the history
-  // The last frame's, with a history.
-  glm::dvec3 last_eye{0.0}, last_forward{0.0};
+  const PlanHistory* history = nullptr;    // its camera is the last frame's until the plan is made
 };
 
 /// What is decided of a map before it is fitted.
@@ -128,11 +127,9 @@ struct MapResult {
 void focused_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept;
 /// Parallel light: a map whose texel grid does not move with the camera.
 void stable_map(const PlanContext& c, const MapRequest& request, MapResult& result) noexcept;
-/// Of all receivers, in view or not, in world space.
-[[nodiscard]] Box receiver_bounds(const PlanContext& c) noexcept;
 /// Whether a stable map of both slices has the very texels that a map of each of them alone has: where its
 /// sides span the bounds, not the slices. For one view without room.
-[[nodiscard]] bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, const Box& receivers,
-                                          double begin, double middle, double end) noexcept;
+[[nodiscard]] bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, double begin,
+                                          double middle, double end) noexcept;
 
 }  // namespace gnomon

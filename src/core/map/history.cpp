@@ -347,8 +347,8 @@ CachedMap cached_map(const PlanContext& c, const MapRequest& request, const Ligh
 double smooth_stretch(const PlanContext& c, const WarpQuestion& question, double length) noexcept {
   constexpr double kPerStep = 3.0 / kLimit;
   const LightSpace& space = question.in.light;
-  const glm::dvec3 move = space.frame.turned(c.camera.position - c.last_eye);
-  const glm::dvec3 turn = glm::cross(c.last_forward, c.axes.forward);
+  const glm::dvec3 move = space.frame.turned(c.camera.position - c.history->eye_world);
+  const glm::dvec3 turn = glm::cross(c.history->forward, c.axes.forward);
   // 1 over the largest kappa.
   const double distance = kPerStep * (std::sqrt(move.x * move.x + move.y * move.y) / question.points.nearest +
                                       0.5 * length * std::sqrt(glm::dot(turn, turn)));
@@ -426,14 +426,15 @@ bool find_start(const PlanContext& c, const MapRequest& request, const WarpQuest
   const auto over_body = [&](const glm::dmat4& gl_from_world) {
     return cached_plane(of_matrix(c, request.space, gl_from_world), question, question.in.unwarped.axis);
   };
-  const CachedPlane best = c.frame < last.until ? over_body(last.xyw_from_world) : CachedPlane{};
+  const CachedPlane best = c.history->frame < last.until ? over_body(last.xyw_from_world) : CachedPlane{};
   if (best.usable) {
     start.best = best.plane.choice;
     start.best.gain_ratio = last.gain_ratio;
     start.best.last_ratio = last.last_ratio;
-    const bool turn = (c.frame + request.slot.cascade) % kSearchNearEvery == 0;
+    const bool turn = (c.history->frame + request.slot.cascade) % kSearchNearEvery == 0;
     // Searches round the same place would find better ones for ever, and move texels under a still camera.
-    const bool moved = !c.same_light || c.camera.position != c.last_eye || c.axes.forward != c.last_forward;
+    const bool moved =
+        !c.same_light || c.camera.position != c.history->eye_world || c.axes.forward != c.history->forward;
     const bool holds = last.last_ratio > 0.0 && is_filled(best) && best.plane.stretch <= kNearLimit * limit;
     start.use = turn && moved ? StartUse::search : turn || !holds ? StartUse::measure : StartUse::keep;
   }
@@ -453,7 +454,8 @@ PlanHistory::SearchedWarp searched_warp(const PlanContext& c, const MapRequest& 
   const WarpChoice& choice = plane.choice;
   const std::int64_t sooner =
       request.last != nullptr ? 0 : kSearchApart * request.slot.cascade % kSearchEvery;
-  return {choice.followed ? request.last->searched.until : c.frame + kSearchEvery - sooner,
+  const std::int64_t frame = c.history != nullptr ? c.history->frame : 0;
+  return {choice.followed ? request.last->searched.until : frame + kSearchEvery - sooner,
           world_matrix(clip_from_light(plane, {0.0, 1.0}, 0.0) * request.space.light_from_relative(),
                        c.camera.position),
           choice.gain_ratio > 0.0 ? choice.gain_ratio : 1.0, choice.last_ratio};

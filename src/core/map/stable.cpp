@@ -133,7 +133,8 @@ Span span_along(const glm::dvec3& axis, const Polytope& body) noexcept {
 
 /// For one camera: the slice within the bounds of all receivers. Not its body, which follows receivers that
 /// move inside of them.
-Extent extent_of_slice(const PlanContext& c, const MapRequest& request, const Box& receivers) noexcept {
+Extent extent_of_slice(const PlanContext& c, const MapRequest& request) noexcept {
+  const Box& receivers = c.receivers;
   Extent extent{};
   extent.chord = longest_chord_of(c, request.begin, request.end);
   const Polytope slice = frustum_slice(c.camera, c.axes, request.begin, request.end);
@@ -151,8 +152,8 @@ Extent extent_of_slice(const PlanContext& c, const MapRequest& request, const Bo
 
 /// For several cameras, or with room round what one sees. Out of line: other maps need not make room for the
 /// slices.
-[[gnu::noinline]] Extent extent_of_slices(const PlanContext& c, const MapRequest& request,
-                                          const Box& receivers) noexcept {
+[[gnu::noinline]] Extent extent_of_slices(const PlanContext& c, const MapRequest& request) noexcept {
+  const Box& receivers = c.receivers;
   const Slices slices = slices_of(c, request);
   Extent extent{};
   extent.chord = c.views.empty() ? longest_chord_of(c, request.begin, request.end) : longest_distance(slices);
@@ -212,9 +213,8 @@ glm::dvec2 kept_sides(const PlanContext& c, const MapRequest& request, const glm
 /// Out of line: the map need not make room for the slice.
 [[gnu::noinline]] Grid grid_of(const PlanContext& c, const MapRequest& request, ShadowMap& map) noexcept {
   Grid grid{};
-  const Box receivers = receiver_bounds(c);
-  const Extent extent = c.views.empty() && request.room == 0.0 ? extent_of_slice(c, request, receivers)
-                                                               : extent_of_slices(c, request, receivers);
+  const Extent extent =
+      c.views.empty() && request.room == 0.0 ? extent_of_slice(c, request) : extent_of_slices(c, request);
   const glm::dvec2 sides = kept_sides(c, request, rounded_sides(c, request.end, extent.side, extent.chord));
   // One texel is the room that snapping moves within.
   map.filter_margin_texels = border_texels(c.options, map.width - 1, 1.0 / min_of(sides.x, sides.y));
@@ -275,20 +275,16 @@ std::int64_t snap_index(double value, double step) noexcept {
   return static_cast<std::int64_t>(index);
 }
 
-Box receiver_bounds(const PlanContext& c) noexcept {
-  return casters_inside({}, c.bounds.receivers, glm::dvec3(0.0), {0.0, 0.0, 1.0}).bounds;
-}
-
-bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, const Box& receivers, double begin,
-                            double middle, double end) noexcept {
+bool stable_map_serves_both(const PlanContext& c, const LightFrame& frame, double begin, double middle,
+                            double end) noexcept {
   const double first = longest_chord_of(c, begin, middle);
-  const glm::dvec3 least = sizes_in_steps(receivers, first);
+  const glm::dvec3 least = sizes_in_steps(c.receivers, first);
   // Sides grow with the chord until they hold all receivers.
   const glm::dvec2 all(glm::dot(glm::abs(frame.x), least), glm::dot(glm::abs(frame.y), least));
   constexpr double kRounding = 1.0 - 1e-12;
   if (first < kRounding * max_of(all.x, all.y)) return false;
   const auto sides = [&](double to, double chord) {
-    const glm::dvec3 size = sizes_in_steps(receivers, chord);
+    const glm::dvec3 size = sizes_in_steps(c.receivers, chord);
     return rounded_sides(c, to, {farthest_along(frame.x, size, chord), farthest_along(frame.y, size, chord)},
                          chord);
   };

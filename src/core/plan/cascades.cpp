@@ -217,13 +217,12 @@ void fit_cascade(const PlanContext& c, const MapRequest& request, MapResult& res
   if (!c.how.stable || c.how.caches_cascades || !c.views.empty() || c.visible_depths != nullptr ||
       !c.options.prune.has(PruneRule::equal_cascades))
     return;
-  const Box receivers = receiver_bounds(c);
   for (int cascade = 0; cascade + 2 < edges.count; ++cascade) {
     const auto at = static_cast<std::size_t>(cascade);
     const MapSizes::Size &own = sizes.of[at], &next = sizes.of[at + 1];
     const double begin = edges.depth[at], end = edges.depth[at + 1];
     if (own.width != next.width || own.height != next.height ||
-        !stable_map_serves_both(c, scene.space.frame, receivers, begin, end, edges.depth[at + 2]))
+        !stable_map_serves_both(c, scene.space.frame, begin, end, edges.depth[at + 2]))
       continue;
     omit(plan, {OmissionKind::cascade_without_gain, cascade, begin, end, texels_asked(c.options)});
     edges.depth[at + 1] = begin;

@@ -67,6 +67,11 @@ void plan_along_view(const PlanContext& c, const ParallelScene& scene, const Res
   add_plane_maps(c, planes, plan);
 }
 
+/// Out of line: maps need not make room for the way there.
+[[gnu::noinline]] void find_receiver_bounds(PlanContext& c) noexcept {
+  c.receivers = casters_inside({}, c.bounds.receivers, glm::dvec3(0.0), {0.0, 0.0, 1.0}).bounds;
+}
+
 void plan_parallel(PlanContext& c, const DirectionalLight& light, const Resolved& resolved,
                    const VisibleDepths* visible, PlanHistory* history, ShadowPlan& plan) noexcept {
   plan.light_direction = safe_normalize(light.direction, {0.0, -1.0, 0.0});
@@ -81,6 +86,7 @@ void plan_parallel(PlanContext& c, const DirectionalLight& light, const Resolved
                       *c.how.warp};
   scene.space.frame =
       c.how.stable ? grid_frame(plan.light_direction) : view_aligned_frame(plan.light_direction, c.axes);
+  if (c.how.stable) find_receiver_bounds(c);
   if (resolved.follows_depths) c.visible_depths = usable_depths(c, scene.depths, visible);
   if (resolved.parts) {
     plan_parts(c, scene, plan);
@@ -153,9 +159,7 @@ void forget_other_options(const PlanOptions& options, PlanHistory& history) noex
 /// Takes up what the last frame left.
 void resume(const Light& light, PlanHistory& history, PlanContext& c) noexcept {
   forget_other_options(c.options, history);
-  c.frame = history.frame;
-  c.last_eye = history.eye_world;
-  c.last_forward = history.forward;
+  c.history = &history;
   // Maps of another place are no start, and no reason to go slowly; a turning sun's are.
   const glm::dvec4 now = light_of(light), before = history.light_world;
   c.same_light = now == before;
