@@ -95,7 +95,7 @@ TEST(StabilityChart, names_the_last_value_where_floats_fail_and_draws_no_line_ov
   const std::string chart = stability_chart(read_stability(text, "here").axes.at(0)).standalone();
   EXPECT_NE(chart.find("more than half a texel from 10<"), std::string::npos) << chart;
   EXPECT_NE(chart.find("more than half a texel up to 10<"), std::string::npos) << chart;
-  EXPECT_EQ(count(chart, "class=\"line s"), 2u * 3u) << "two pieces of each line";
+  EXPECT_EQ(count(chart, "class=\"line c"), 2u * 3u) << "two pieces of each line";
 }
 
 TEST(StabilitySection, shows_axes_cases_and_filters_with_names_as_text) {

@@ -13,7 +13,7 @@ namespace {
 
 // Pixels of the drawing's own coordinates. Mirrored in page/script.js, which redraws the first chart.
 constexpr double kWidth = 940, kHeight = 460, kLeft = 74, kRight = 660, kTop = 34, kBottom = 400;
-constexpr double kLegendLeft = 684, kLegendLine = 19;
+constexpr double kLegendLeft = 684, kLegendLine = 19, kNameLeft = kLegendLeft + 20;
 
 std::string coordinate(double value) {
   std::array<char, 32> text;
@@ -21,13 +21,18 @@ std::string coordinate(double value) {
   return text.data();
 }
 
-/// What fits beside the plot. Names are cut between characters of UTF-8.
-std::string shortened(const std::string& name) {
-  constexpr std::size_t kFits = 40;
-  if (name.size() <= kFits) return name;
-  std::size_t end = kFits - 1;
-  while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;
-  return name.substr(0, end) + "\xE2\x80\xA6";
+/// A line of the legend, squeezed to what fits beside the plot. Names that are longer still are cut between
+/// characters of UTF-8.
+std::string name_beside(const std::string& name, double y) {
+  constexpr std::size_t kFits = 34, kSqueezed = 50;
+  std::size_t end = name.size() > kSqueezed ? kSqueezed - 1 : name.size();
+  while (end < name.size() && end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0) == 0x80) --end;
+  const std::string shown = name.substr(0, end) + (end < name.size() ? "\xE2\x80\xA6" : "");
+  return "<text x=\"" + coordinate(kNameLeft) + "\" y=\"" + coordinate(y + 4) + "\"" +
+         (name.size() > kFits
+              ? " textLength=\"" + coordinate(kWidth - kNameLeft - 6) + "\" lengthAdjust=\"spacingAndGlyphs\""
+              : "") +
+         ">" + escaped(shown) + "</text>\n";
 }
 
 std::string element_end(const std::string& tip, const char* name) {
@@ -39,14 +44,18 @@ constexpr const char* kStyle =
     "<style>svg{background:#fff;font-family:system-ui,sans-serif;font-size:12px;fill:#222}"
     ".grid{stroke:#ddd}.frame{stroke:#777;fill:none}.title{font-weight:600;font-size:14px}"
     ".line{fill:none;stroke-width:1.6}.front{fill:none;stroke:#111;stroke-width:1.4;stroke-dasharray:5 3}"
-    ".mark{stroke:#fff;stroke-width:.8}"
-    ".c0{fill:#0072b2}.c1{fill:#d55e00}.c2{fill:#009e73}.c3{fill:#cc79a7}.c4{fill:#e69f00}.c5{fill:#56b4e9}"
-    ".c6{fill:#8c6d1f}.c7{fill:#7a4fbf}.c8{fill:#c23b4b}.c9{fill:#4d7f17}.c10{fill:#777}.c11{fill:#23297a}"
-    ".s0{stroke:#0072b2}.s1{stroke:#d55e00}.s2{stroke:#009e73}.s3{stroke:#cc79a7}.s4{stroke:#e69f00}"
-    ".s5{stroke:#56b4e9}.s6{stroke:#8c6d1f}.s7{stroke:#7a4fbf}.s8{stroke:#c23b4b}.s9{stroke:#4d7f17}"
-    ".s10{stroke:#777}.s11{stroke:#23297a}.plain{fill:#777}</style>\n";
+    ".mark{stroke:#fff;stroke-width:.8}.mark,.key{fill:currentColor}.line{stroke:currentColor}"
+    ".again{fill:#fff;stroke:currentColor;stroke-width:1.6}.line.again{fill:none;stroke-dasharray:9 3}"
+    ".c0{color:#0072b2}.c1{color:#d55e00}.c2{color:#009e73}.c3{color:#cc79a7}.c4{color:#e69f00}"
+    ".c5{color:#56b4e9}.c6{color:#8c6d1f}.c7{color:#7a4fbf}.c8{color:#c23b4b}.c9{color:#4d7f17}.c10{color:#"
+    "777}"
+    ".c11{color:#23297a}.plain{fill:#777}</style>\n";
 
 }  // namespace
+
+std::string color_class(std::size_t color) {
+  return "c" + std::to_string(color % kColors) + (color < kColors ? "" : " again");
+}
 
 std::string_view mark_path(std::size_t kind) noexcept {
   constexpr std::array<std::string_view, kMarks> kPaths{
@@ -143,7 +152,7 @@ double Chart::y_of(double value) const noexcept {
 
 void Chart::mark(const Point& at, std::size_t color, std::size_t mark, const std::string& tip,
                  std::size_t id) {
-  plot_ += "<path class=\"mark c" + std::to_string(color % kColors) + "\" data-id=\"" + std::to_string(id) +
+  plot_ += "<path class=\"mark " + color_class(color) + "\" data-id=\"" + std::to_string(id) +
            "\" transform=\"translate(" + coordinate(x_of(at.x)) + "," + coordinate(y_of(at.y)) + ")\" d=\"" +
            std::string(mark_path(mark)) + "\"" + element_end(tip, "path");
 }
@@ -151,7 +160,7 @@ void Chart::mark(const Point& at, std::size_t color, std::size_t mark, const std
 void Chart::line(const std::vector<Point>& points, std::size_t color, std::string_view classes,
                  const std::string& tip) {
   if (points.empty()) return;
-  plot_ += "<path class=\"" + std::string(classes) + " s" + std::to_string(color % kColors) + "\" d=\"";
+  plot_ += "<path class=\"" + std::string(classes) + " " + color_class(color) + "\" d=\"";
   for (std::size_t i = 0; i < points.size(); ++i)
     plot_ += (i == 0 ? "M" : "L") + coordinate(x_of(points[i].x)) + "," + coordinate(y_of(points[i].y));
   plot_ += "\"" + element_end(tip, "path");
@@ -167,21 +176,16 @@ void Chart::steps(const std::vector<Point>& points, std::size_t color, std::stri
   line(corners, color, classes, tip);
 }
 
-void Chart::legend_color(const std::string& full_name, std::size_t color) {
-  const std::string name = shortened(full_name);
+void Chart::legend_color(const std::string& name, std::size_t color) {
   const double y = kTop + 6 + kLegendLine * legend_lines_++;
-  legend_ += "<rect class=\"c" + std::to_string(color % kColors) + "\" x=\"" + coordinate(kLegendLeft) +
-             "\" y=\"" + coordinate(y - 6) + "\" width=\"12\" height=\"12\"/><text x=\"" +
-             coordinate(kLegendLeft + 20) + "\" y=\"" + coordinate(y + 4) + "\">" + escaped(name) +
-             "</text>\n";
+  legend_ += "<rect class=\"key " + color_class(color) + "\" x=\"" + coordinate(kLegendLeft) + "\" y=\"" +
+             coordinate(y - 6) + "\" width=\"12\" height=\"12\"/>" + name_beside(name, y);
 }
 
 void Chart::legend_mark(const std::string& name, std::size_t mark) {
   const double y = kTop + 6 + kLegendLine * legend_lines_++;
   legend_ += "<path class=\"plain\" transform=\"translate(" + coordinate(kLegendLeft + 6) + "," +
-             coordinate(y) + ")\" d=\"" + std::string(mark_path(mark)) + "\"/><text x=\"" +
-             coordinate(kLegendLeft + 20) + "\" y=\"" + coordinate(y + 4) + "\">" + escaped(name) +
-             "</text>\n";
+             coordinate(y) + ")\" d=\"" + std::string(mark_path(mark)) + "\"/>" + name_beside(name, y);
 }
 
 std::string Chart::axes() const {
@@ -214,15 +218,19 @@ std::string Chart::body() const {
          "</g>\n<g class=\"legend\">\n" + legend_ + "</g>\n";
 }
 
+double Chart::height() const noexcept {
+  return std::max(kHeight, kTop + kLegendLine * (legend_lines_ + 1));
+}
+
 std::string Chart::embedded(std::string_view id) const {
   return scroll_box(title_) + "<svg id=\"" + escaped(id) + "\" class=\"chart\" role=\"img\" aria-label=\"" +
-         escaped(title_) + "\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(kHeight) + "\">\n" +
+         escaped(title_) + "\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(height()) + "\">\n" +
          body() + "</svg>\n" + std::string(kScrollBoxEnd);
 }
 
 std::string Chart::standalone() const {
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" + coordinate(kWidth) + "\" height=\"" +
-         coordinate(kHeight) + "\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(kHeight) +
+         coordinate(height()) + "\" viewBox=\"0 0 " + coordinate(kWidth) + " " + coordinate(height()) +
          "\">\n" + kStyle + "<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n" + body() + "</svg>\n";
 }
 

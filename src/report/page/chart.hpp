@@ -10,7 +10,7 @@ namespace gnomon::report {
 struct Axis {
   std::string label;
   bool logarithmic = true;
-  double low = 0.0, high = 1.0;  ///< set by fit()
+  double low = 0.1, high = 1.0;  ///< set by fit()
   bool whole = false;            ///< only whole numbers are ticks
 
   /// The range round these values, rounded outwards; zero, negative and infinite ones do not count on a
@@ -21,7 +21,7 @@ struct Axis {
   [[nodiscard]] std::vector<double> ticks() const;
 };
 
-/// Colours and marks repeat where there are more names than kinds.
+/// Where there are more names than colours, they repeat in hollow marks and dashed lines. Marks repeat.
 inline constexpr std::size_t kColors = 12, kMarks = 10;
 
 struct Point {
@@ -40,8 +40,8 @@ class Chart {
   /// First `y` from `x` on, then straight down or up to the next: what holds until a better one is reached.
   void steps(const std::vector<Point>& points, std::size_t color, std::string_view classes,
              const std::string& tip);
-  /// Names that are too long for the margin are cut.
-  void legend_color(const std::string& full_name, std::size_t color);
+  /// Names that are too long for the margin are squeezed, and longer ones cut.
+  void legend_color(const std::string& name, std::size_t color);
   void legend_mark(const std::string& name, std::size_t mark);
 
   /// For the page: colours come from its style.
@@ -52,6 +52,7 @@ class Chart {
  private:
   [[nodiscard]] double x_of(double value) const noexcept;
   [[nodiscard]] double y_of(double value) const noexcept;
+  [[nodiscard]] double height() const noexcept;
   [[nodiscard]] std::string axes() const;
   [[nodiscard]] std::string body() const;
 
@@ -61,6 +62,8 @@ class Chart {
   int legend_lines_ = 0;
 };
 
+/// Classes of a mark, line or key of this colour.
+[[nodiscard]] std::string color_class(std::size_t color);
 /// Path data of mark `kind` round (0, 0).
 [[nodiscard]] std::string_view mark_path(std::size_t kind) noexcept;
 

@@ -164,7 +164,7 @@ std::string page_data(const PageInput& input, const PagePictures& pictures) {
   data["techniques"] = Json::array();
   for (const Technique& t : summary.techniques)
     data["techniques"].push_back({{"name", t.name()},
-                                  {"color", place_in(summary.filters, t.filter) % kColors},
+                                  {"color", color_class(place_in(summary.filters, t.filter))},
                                   {"mark", place_in(summary.kinds, t.kind()) % kMarks}});
   data["marks"] = Json::array();
   for (std::size_t kind = 0; kind < kMarks; ++kind) data["marks"].push_back(mark_path(kind));

@@ -115,7 +115,7 @@
     points.sort((a, b) => a.x - b.x);  // arrow keys go from left to right
     for (const p of points) {
       const t = data.techniques[p.t];
-      const mark = element("path", { class: "mark c" + t.color, d: data.marks[t.mark], "data-id": p.t,
+      const mark = element("path", { class: "mark " + t.color, d: data.marks[t.mark], "data-id": p.t,
         transform: `translate(${px(p.x)},${py(p.y)})`, role: "button", "aria-label": tip(p.t) });
       mark.append(element("title", {}, tip(p.t)));
       plot.append(mark);
