@@ -185,6 +185,9 @@ test('biases are depths of clip space, and slopes are offsets of depth textures 
   const map = { biasConstant: 0.02, depthRangeWorld: 40, texelWorld: [0.1, 0.2] };
   const pcf = biasOf(map, { filter: ShadowGenerator.FILTER_PCF, radius: 2.5 });
   assert.ok(Math.abs(pcf.bias - 0.001) < 1e-12 && pcf.slope === 3 && pcf.normalBias === 0);
+  // A grid of fit stable: 0.9 of the kernel's 2.5 texels of 0.2 more, as its texels are all that large.
+  const stable = biasOf({ ...map, snapValid: true }, { filter: ShadowGenerator.FILTER_PCF, radius: 2.5 });
+  assert.ok(Math.abs(stable.bias - 2 * (0.0005 + 0.45 / 40)) < 1e-12 && stable.slope === 3);
   const none = biasOf(map, { filter: ShadowGenerator.FILTER_NONE, radius: 0.5 });
   assert.ok(Math.abs(none.bias - 0.0005) < 1e-12 && none.slope === 0 && Math.abs(none.normalBias - 0.2) < 1e-12);
   assert.deepEqual(biasOf(map, { filter: ShadowGenerator.FILTER_PCF, radius: 2.5, backFaces: true }), { bias: 0, normalBias: 0, slope: 0 });
