@@ -32,7 +32,7 @@ struct SeenShadow {
   std::vector<float> mask;               ///< 1 lit, 0 in shadow, -1 where no ray to the light decides
   std::vector<float> view_depths;        ///< 0 where there is no surface
   std::vector<glm::vec3> normals_world;  ///< of the triangles, towards the viewer; zero: no surface
-  LightOccluders occluders;
+  LightOccluders occluders;              ///< search what lies between a point and the light
   /// Refers to this object and to the tracer, which must outlive it.
   [[nodiscard]] ShadowPicture picture() const noexcept {
     return {camera, mask, view_depths, {}, normals_world, occluders.search()};
