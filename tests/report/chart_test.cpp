@@ -41,6 +41,12 @@ TEST(Chart, colours_that_come_again_are_hollow) {
   for (std::size_t color = 0; color < 2 * kColors; ++color) classes.insert(color_class(color));
   EXPECT_EQ(classes.size(), 2 * kColors);
   EXPECT_EQ(color_class(kColors), "c0 again");
+  Chart chart = chart_of(kColors + 1);
+  chart.line({{0.2, 0.2}, {0.5, 0.5}}, kColors, "line", "tip");
+  const std::string svg = chart.standalone();
+  EXPECT_NE(svg.find(".again{fill:#fff"), std::string::npos) << "files bring their own style";
+  EXPECT_NE(svg.find("class=\"line c0 again\""), std::string::npos);
+  EXPECT_NE(svg.find("class=\"key c0 again\""), std::string::npos);
 }
 
 TEST(Chart, long_names_are_squeezed_into_the_margin_and_longer_ones_cut) {

@@ -264,6 +264,7 @@ TEST(Page, loads_nothing_and_lets_only_its_own_script_run) {
   const std::size_t begin = page.rfind("<script>") + 8, end = page.rfind("</script>");
   EXPECT_NE(page.find(policy_hash(page.substr(begin, end - begin))), std::string::npos);
   EXPECT_EQ(count(page, " style=\""), 0u);
+  EXPECT_EQ(count(page, ".mark.again,.key.again{"), 1u) << "colours that come again";
 }
 
 TEST(Page, what_is_drawn_from_the_frame_before_is_taken_off_the_frame_drawn_alone) {

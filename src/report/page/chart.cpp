@@ -47,9 +47,8 @@ constexpr const char* kStyle =
     ".mark{stroke:#fff;stroke-width:.8}.mark,.key{fill:currentColor}.line{stroke:currentColor}"
     ".again{fill:#fff;stroke:currentColor;stroke-width:1.6}.line.again{fill:none;stroke-dasharray:9 3}"
     ".c0{color:#0072b2}.c1{color:#d55e00}.c2{color:#009e73}.c3{color:#cc79a7}.c4{color:#e69f00}"
-    ".c5{color:#56b4e9}.c6{color:#8c6d1f}.c7{color:#7a4fbf}.c8{color:#c23b4b}.c9{color:#4d7f17}.c10{color:#"
-    "777}"
-    ".c11{color:#23297a}.plain{fill:#777}</style>\n";
+    ".c5{color:#56b4e9}.c6{color:#8c6d1f}.c7{color:#7a4fbf}.c8{color:#c23b4b}.c9{color:#4d7f17}"
+    ".c10{color:#777}.c11{color:#23297a}.plain{fill:#777}</style>\n";
 
 }  // namespace
 

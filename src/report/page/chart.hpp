@@ -21,7 +21,7 @@ struct Axis {
   [[nodiscard]] std::vector<double> ticks() const;
 };
 
-/// Where there are more names than colours, they repeat in hollow marks and dashed lines. Marks repeat.
+/// A colour that comes again is hollow in marks and dashed in lines. Marks come again as they are.
 inline constexpr std::size_t kColors = 12, kMarks = 10;
 
 struct Point {
