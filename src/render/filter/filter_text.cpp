@@ -59,9 +59,10 @@ std::string read_choice(std::string_view key, std::string_view text, std::string
 std::string read_pair(std::string_view key, std::string_view text, FilterSettings& settings) {
   const Filter& filter = *settings.filter;
   bool second = false;
-  if (key == "radius") return read_number(key, text, 0.0, kMaxRadiusWorld, settings.radius);
+  if (key == "radius" && filter.info.has_kernel)
+    return read_number(key, text, 0.0, kMaxRadiusWorld, settings.radius);
   if (key == "format") return read_format(text, settings);
-  if (key == "unit") {
+  if (key == "unit" && filter.info.has_kernel) {
     const std::string error = read_choice(key, text, "texels", "world", second);
     settings.unit = second ? KernelUnit::world : KernelUnit::texels;
     return error;
@@ -83,7 +84,7 @@ std::string read_pair(std::string_view key, std::string_view text, FilterSetting
     const FilterOption& option = filter.info.options[i];
     if (option.name == key) return read_number(key, text, option.min, option.max, settings.option[i]);
   }
-  std::string known = "radius, unit, contacts";
+  std::string known = filter.info.has_kernel ? "radius, unit, contacts" : "contacts";
   if (!filter.info.formats.empty()) known += ", format, blur";
   if (filter.info.may_mipmap) known += ", mipmap, anisotropy";
   for (const FilterOption& option : filter.info.options) known += ", " + std::string(option.name);
@@ -197,8 +198,8 @@ std::string to_string(const FilterSettings& settings) {
   const auto add = [&pairs](std::string_view key, std::string_view value) {
     pairs += (pairs.empty() ? ":" : ",") + std::string(key) + "=" + std::string(value);
   };
-  if (settings.radius != usual.radius) add("radius", number_text(settings.radius));
-  if (settings.unit != usual.unit) add("unit", "world");
+  if (filter.info.has_kernel && settings.radius != usual.radius) add("radius", number_text(settings.radius));
+  if (filter.info.has_kernel && settings.unit != usual.unit) add("unit", "world");
   if (settings.blur != usual.blur) add("blur", "gauss");
   if (settings.format != usual.format) add("format", to_string(settings.format));
   if (settings.contacts != usual.contacts) add("contacts", settings.contacts ? "1" : "0");

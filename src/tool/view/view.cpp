@@ -273,7 +273,8 @@ std::vector<Option> setting_options(Request& request) {
   const std::vector<Option> of_picture{
       {.name = "--options",
        .target = &request.plan_json,
-       .help = "further options of the plan, as \"options\" of a case file has them, in JSON",
+       .help = "further options of the plan, as \"options\" of a case file has them, in JSON; options of "
+               "the command line win over it",
        .word = "JSON"},
       {.name = "--filter",
        .target = ParsedWord{set_filter, render::to_string(settings.filter)},

@@ -22,7 +22,7 @@ std::vector<FilterSettings> variants() {
   std::vector<FilterSettings> all;
   for (const Filter* filter : all_filters()) {
     const std::string name(filter->info.name);
-    all.push_back(settings_from(name + ":radius=2"));
+    all.push_back(settings_from(filter->info.has_kernel ? name + ":radius=2" : name));
     for (const TexelFormat format : filter->info.formats)
       all.push_back(settings_from(name + ":radius=2,format=" + std::string(to_string(format))));
   }

@@ -66,8 +66,11 @@ TEST(Perceptual, has_nothing_to_hide_without_maps) {
 TEST(Perceptual, finds_no_map_for_filters_without_kernel_and_for_contacts) {
   const ShadowPlan plan = plan_of(1024, 0.1);
   const ShadowDistances far{100.0, 0.0};
-  for (const FilterSettings& settings : {FilterSettings{}, filter("hard"), filter("hard:radius=9,unit=world"),
-                                         filter("vsm:radius=0,unit=world"), filter("pcss:radius=2")}) {
+  FilterSettings wide = filter("hard");
+  wide.radius = 9.0;
+  wide.unit = KernelUnit::world;
+  for (const FilterSettings& settings :
+       {FilterSettings{}, filter("hard"), wide, filter("vsm:radius=0,unit=world"), filter("pcss:radius=2")}) {
     const HidingMapSize size = hiding_map_size(plan, camera(), settings, far);
     EXPECT_EQ(size.map_size, kMaxMapSize);
     EXPECT_FALSE(size.hides);
