@@ -189,6 +189,38 @@ TEST(Playing, the_fly_command_plays_while_it_flies) {
   EXPECT_EQ(spawn_gnomon({"fly", scene.file, "--animation-fps", "2"}).exit_code, 2);
 }
 
+TEST(Playing, stable_fits_fly_with_a_history_that_nobody_asked_for) {
+  const SceneFile scene;
+  const auto fly = [&](std::vector<std::string> more) {
+    const auto folder = scene.folder.path() / "kept";
+    std::vector<std::string> words{"fly",
+                                   scene.file,
+                                   "--out",
+                                   folder.string(),
+                                   "--animation",
+                                   "all",
+                                   "--size",
+                                   "192x108",
+                                   "--map-size",
+                                   "256",
+                                   "--frames",
+                                   "4",
+                                   "--animation-fps",
+                                   "2"};
+    words.insert(words.end(), more.begin(), more.end());
+    const Finished run = spawn_gnomon(words);
+    EXPECT_EQ(run.exit_code, 0) << run.err;
+    std::string pictures;
+    for (const char* frame : {"0001", "0002", "0003"})
+      pictures += test::content_of(folder / ("frame_" + std::string(frame) + "_image.png"));
+    return pictures;
+  };
+  for (const char* fit : {"stable", "warped_stable"})
+    EXPECT_EQ(fly({"--fit", fit}), fly({"--fit", fit, "--history"})) << fit;
+  // Pages keep their grid without.
+  EXPECT_FALSE(fly({"--fit", "stable", "--pages", "clipmap", "--page-size", "64"}).empty());
+}
+
 TEST(Playing, a_technique_is_chosen_by_the_poses_of_its_flight) {
   const SceneFile scene;
   const auto chosen = [&](std::vector<std::string> more) {

@@ -2,6 +2,7 @@
 #include "frame_plan.hpp"
 
 #include "gnomon/scene/coarse_view.hpp"
+#include "plan_option.hpp"
 
 namespace gnomon::tool::fly {
 namespace {
@@ -31,8 +32,8 @@ VisibleDepths frame_depths(const Options& options, const Flight& flight, render:
 
 ShadowPlan plan_frame(const Options& options, const Flight& flight, const Light& light, const Camera& camera,
                       const VisibleDepths& depths, PlanHistory& history) {
-  return make_plan({camera, &depths}, light, flight.bounds(), options.plan,
-                   options.history ? &history : nullptr);
+  const bool keeps = options.history || needs_history(options.plan.fit);
+  return make_plan({camera, &depths}, light, flight.bounds(), options.plan, keeps ? &history : nullptr);
 }
 
 }  // namespace gnomon::tool::fly

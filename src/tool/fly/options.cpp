@@ -83,7 +83,6 @@ Options resolved(const Request& request) {
   options.out = request.out;
   if (request.lambda_given && !request.split_given) (void)set_plan_choice("split", "practical", options.plan);
   if (request.stable) (void)set_plan_choice("fit", "stable", options.plan);
-  if (needs_history(options.plan.fit)) options.history = true;
   render::set_margin(options.filter, options.plan);
   options.prune = options.plan.prune;
   resolve_resolution(options);

@@ -75,7 +75,7 @@ void maps_tab(App& app) {
       settings.map_passes = static_cast<render::MapPasses>(passes);
     tooltip("one pass for each map, or one layered pass for all of one size; the depths are the same");
     ImGui::Checkbox("history", &settings.history);
-    tooltip("texel density changes smoothly from frame to frame");
+    tooltip("texel density changes smoothly from frame to frame; stable fits have it always");
     ImGui::Checkbox("visible_depths", &settings.visible_depths);
     tooltip("each frame is drawn twice: the second is planned for the depths that the first shows");
   }

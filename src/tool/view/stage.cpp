@@ -169,7 +169,8 @@ std::string Stage::plan_side(const Settings& settings, const Camera& planned, co
   const VisibleDepths depths = settings.visible_depths ? visible_depths(renderer_, planned) : VisibleDepths{};
   const VisibleDepths* seen = settings.visible_depths ? &depths : nullptr;
   const auto begin = Clock::now();
-  side.plan = make_plan({planned, seen}, light, bounds, options, settings.history ? &side.history : nullptr);
+  const bool keeps = settings.history || needs_history(options.fit);
+  side.plan = make_plan({planned, seen}, light, bounds, options, keeps ? &side.history : nullptr);
   side.plan_ms = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
   if (side.plan.status == PlanStatus::invalid_input) return invalid_input_text(side.plan.invalid_field);
   side.m = measure(side.plan, planned, bounds, kCoarse);

@@ -191,7 +191,6 @@ Options resolved(const Request& request) {
   if (is_given(request, "--lambda") && !is_given(request, "--split"))
     (void)set_plan_choice("split", "practical", state.a.plan);
   check_page_size(state.a.pages);
-  if (needs_history(state.a.plan.fit)) state.a.history = true;
   state.b = state.a;
   resolve_light(request, state.light);
   resolve_camera(request.camera, state);
