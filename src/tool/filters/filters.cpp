@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command.hpp"
+#include "compare/technique_words.hpp"
 #include "filter_words.hpp"
 #include "gnomon/casefile/casefile.hpp"
 #include "gnomon/report/statistics.hpp"
