@@ -40,8 +40,8 @@ inline constexpr double kDensityStep = 0.05;
 /// area then change by less than kDensityStep at every lit surface point that stays in its map. Faster camera
 /// motion weakens the warp, which limits shimmering. Small gains are ignored. Unavoidable jumps (a receiver
 /// came into view, the camera was moved far) are listed in events(). Fit::warped_stable: the map is unchanged
-/// until the view leaves it. Fit::stable needs no history. Maps of a local light that moved begin afresh, and
-/// so do all maps under another WarpOptions::warp.
+/// until the view leaves it. Fit::stable: texels and light depths change more rarely. Maps of a local light
+/// that moved begin afresh, and so do all maps under another WarpOptions::warp.
 struct PlanHistory {
   /// The best warp of one cascade, where the next frame's search begins.
   struct SearchedWarp {

@@ -249,6 +249,47 @@ TEST(StableLaw, receivers_that_move_at_the_end_of_their_bounds_leave_the_texels_
   EXPECT_EQ(with, 0);
 }
 
+/// Maps of a camera that turns among towers, of which nothing that was drawn the frame before is of use.
+int drawn_anew(unsigned seed, bool with_history) {
+  Random random(seed);
+  std::vector<Box> boxes{{{-150, -1, -150}, {150, 0, 150}}};
+  for (int i = 0; i < 50; ++i) {
+    const glm::dvec3 at{random.between(-120, 120), 0, random.between(-120, 120)};
+    boxes.push_back(
+        {at, at + glm::dvec3{random.between(1, 10), random.between(1, 40), random.between(1, 10)}});
+  }
+  PlanOptions options;
+  options.fit = Fit::stable;
+  PlanHistory history;
+  std::array<ShadowMap, kMaxMaps> last;
+  std::uint32_t known = 0;
+  int drawn = 0;
+  for (int frame = 0; frame < 300; ++frame) {
+    const double turn = 0.01 * frame;
+    const Camera camera = perspective_camera({10, 3, 20}, {-std::sin(turn), -0.1, std::cos(turn)}, {0, 1, 0},
+                                             1.0, 16.0 / 9.0, 0.1, 250, 1920, 1080);
+    const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.4, -0.5, 0.3}}, {boxes, boxes}, options,
+                                      with_history ? &history : nullptr);
+    for (const ShadowMap& map : plan.maps()) {
+      const auto at = static_cast<std::size_t>(map.cascade);
+      drawn += (known >> at & 1u) != 0 && reuse(last[at], map).kind == ReuseKind::none;
+      known |= 1u << at;
+      last[at] = map;
+    }
+  }
+  return drawn;
+}
+
+TEST(StableLaw, maps_under_a_turning_camera_keep_their_depths) {
+  int with = 0, without = 0;
+  for (unsigned seed = 1; seed <= 5; ++seed) {
+    with += drawn_anew(seed, true);
+    without += drawn_anew(seed, false);
+  }
+  EXPECT_GT(without, 200) << "of about 6000";
+  EXPECT_LT(3 * with, without);
+}
+
 TEST(StableLaw, equal_snap_keys_mean_the_same_matrix_to_the_last_bit) {
   std::uint64_t equal = 0;
   for_all(1000, [&] {

@@ -236,9 +236,34 @@ glm::dvec2 kept_sides(const PlanContext& c, const MapRequest& request, const glm
   return grid;
 }
 
+/// The last frame's depths where they hold these, and not much more: what was drawn then stays as it is. An
+/// end that moves out gets room, as the next casters in view often move it farther.
+void keep_depths(const MapRequest& request, double step, SnapKey& key) noexcept {
+  const PlanHistory::Map* const last = request.last;
+  if (last == nullptr || last->width != request.slot.width) return;
+  constexpr double kLonger = 2.0, kRoom = 0.25, kRounding = 1e-6;
+  const glm::dvec4 row = row_of(last->gl_from_world, 2);
+  const double height = 2.0 / glm::length(glm::dvec3(row)), bottom = 0.5 * (row.w - 1.0) * height;
+  const double low = std::floor(bottom / step + 0.5), high = std::floor((bottom + height) / step + 0.5);
+  // Of another grid, whose steps are others.
+  if (!(std::abs(bottom / step - low) < kRounding && std::abs((bottom + height) / step - high) < kRounding))
+    return;
+  const auto far_end = static_cast<double>(key.depth_far), near_end = static_cast<double>(key.depth_near);
+  const double length = near_end - far_end;
+  if (low <= far_end && high >= near_end && high - low <= kLonger * length) {
+    key.depth_far = static_cast<std::int64_t>(low);
+    key.depth_near = static_cast<std::int64_t>(high);
+    return;
+  }
+  const auto room = static_cast<std::int64_t>(std::ceil(kRoom * length));
+  if (far_end < low) key.depth_far -= room;
+  if (near_end > high) key.depth_near += room;
+}
+
 /// Depths in whole steps of a sixteenth of the longer side, so that stored depths do not change either. Steps
 /// double until whole numbers hold both ends.
-LightDepths snapped_depths(const Grid& grid, const HeightRange& heights, SnapKey& key) noexcept {
+LightDepths snapped_depths(const MapRequest& request, const Grid& grid, const HeightRange& heights,
+                           SnapKey& key) noexcept {
   const LightDepths wanted = padded(heights.bottom, heights.height, grid.side);
   const double low = grid.eye.z + wanted.bottom, high = low + wanted.height;
   constexpr double kMaxSteps = 0x1p52;
@@ -248,6 +273,7 @@ LightDepths snapped_depths(const Grid& grid, const HeightRange& heights, SnapKey
   key.depth_far = snap_index(std::floor(low / step), 1.0);
   key.depth_near = snap_index(std::ceil(high / step), 1.0);
   if (key.depth_near <= key.depth_far) key.depth_near = key.depth_far + 1;
+  keep_depths(request, step, key);
   key.valid = true;
   return {static_cast<double>(key.depth_far) * step,
           static_cast<double>(key.depth_near - key.depth_far) * step};
@@ -313,7 +339,7 @@ void stable_map(const PlanContext& c, const MapRequest& request, MapResult& resu
   const HeightRange heights = height_range(c, served.request(), {served.points(), plane, swept, {border}});
   if (!heights.has_casters && !request.without_casters) return;
   result.drawn = true;
-  const LightDepths still_depths = snapped_depths(grid, heights, map.snap_key);
+  const LightDepths still_depths = snapped_depths(request, grid, heights, map.snap_key);
   const LightDepths depths{still_depths.bottom - grid.eye.z, still_depths.height};
   map.depth_range_world = depths.height;
   TexelsNeeded needed;
