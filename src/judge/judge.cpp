@@ -113,6 +113,8 @@ ShadowPlan plan_beside(const Capture& capture, const CapturedFrame& frame, const
   options.resolution.max_size = std::clamp(static_cast<int>(side), kLeastMapSize, kMaxMapSize);
   options.clip_space = capture.clip_space;
   options.filter.texels = std::min(filter, 0.25 * options.resolution.max_size);
+  // Both are measured at the same points, so that those that no caster reaches have a map as well.
+  options.prune = options.prune.without(PruneRule::casterless_cascades).without(PruneRule::casterless_faces);
   // Shadows end where the engine's do.
   Camera camera = frame.camera;
   if (std::isfinite(end) && end > camera.near_depth) camera.far_depth = std::min(camera.far_depth, end);

@@ -108,6 +108,26 @@ double quantile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(at)];
 }
 
+namespace {
+
+/// Whether a caster's box lies on the way from the light to the point. Not one whose surface the point lies
+/// on. True where no casters are known.
+bool caster_reaches(const CapturedScene& scene, const Light& light, const glm::dvec3& point) {
+  if (scene.casters.empty()) return true;
+  const glm::dvec3 back = -travel_at(light, point);
+  const double light_at = std::holds_alternative<DirectionalLight>(light)
+                              ? std::numeric_limits<double>::infinity()
+                              : glm::length(position_of(light) - point);
+  constexpr double kSurface = 1e-6;  // of a box's diagonal
+  return std::any_of(scene.casters.begin(), scene.casters.end(), [&](const Box& caster) {
+    const BoxCrossing crossing = crossing_of(caster, point, back);
+    return crossing.enter <= crossing.leave && crossing.enter < light_at &&
+           crossing.leave > kSurface * glm::length(caster.max - caster.min);
+  });
+}
+
+}  // namespace
+
 LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const CapturedScene& scene,
                     const SeenSurfaces& seen, int light) {
   LightLooks looks{&frame, &scene, &seen, light, {}, {}, {}, {}, {}, {}};
@@ -163,6 +183,10 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
     if (looks.selection() == MapSelection::first_holding) chosen = holding;
     looks.chosen.push_back(chosen);
     looks.holding.push_back(holding);
+    // Depths at which no caster can shadow anything need no map: a plan may omit it.
+    const bool by_depth = looks.selection() == MapSelection::view_depth;
+    if (looks.counts[p] != 0 && by_depth && chosen < 0 && !caster_reaches(scene, source, point))
+      looks.counts[p] = 0;
   }
   return looks;
 }

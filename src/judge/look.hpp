@@ -45,9 +45,11 @@ struct LightLooks {
   std::vector<std::size_t> map;       ///< indices of its maps in the frame
   std::vector<std::vector<Look>> of;  ///< by map of this light, then by point
   std::vector<char> lit;              ///< by point: on the lit side, whatever its depth
-  std::vector<char> counts;           ///< by point: on the lit side, within the depths that maps serve
-  std::vector<int> chosen;            ///< by point: map of this light that the selection takes, -1: none
-  std::vector<int> holding;           ///< by point: first map that holds it, in depth, too; -1: none
+  /// By point: on the lit side, and within the depths that maps serve, or where a caster reaches between
+  /// them.
+  std::vector<char> counts;
+  std::vector<int> chosen;   ///< by point: map of this light that the selection takes, -1: none
+  std::vector<int> holding;  ///< by point: first map that holds it, in depth, too; -1: none
   [[nodiscard]] MapSelection selection() const { return frame->selection[static_cast<std::size_t>(light)]; }
   [[nodiscard]] const Light& source() const { return frame->lights[static_cast<std::size_t>(light)]; }
   [[nodiscard]] const CapturedMap& map_at(std::size_t i) const { return frame->maps[map[i]]; }

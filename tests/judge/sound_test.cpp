@@ -210,6 +210,41 @@ TEST(SoundCaptures, may_have_a_stable_map_round_a_slender_view) {
   EXPECT_THAT(kinds(judged(c)), testing::IsEmpty());
 }
 
+TEST(SoundCaptures, need_no_map_where_no_caster_reaches) {
+  // A tower far off: no cascade before its shadow is planned.
+  const std::vector<Box> tower{{{6, 0, -70}, {14, 20, -60}}},
+      all{{{-60, -1, -200}, {60, 0, 20}}, tower.front()};
+  const Camera camera = perspective_camera({0, 5, 0}, {0, 0, -1}, {0, 1, 0}, 1.05, 1.5, 0.5, 250.0, 960, 640);
+  const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.3, -1.0, 0.2}}, {tower, all}, {});
+  ASSERT_GT(plan.map_count, 0);
+  ASSERT_GT(plan.map[0].depth_begin, 20.0);
+  Json maps = Json::array();
+  for (const ShadowMap& map : plan.maps())
+    maps.push_back({{"clip_from_world", numbers(map.clip_from_world)},
+                    {"width", map.width},
+                    {"height", map.height},
+                    {"depths", {map.depth_begin, map.depth_end}}});
+  Json c{{"format", "gnomon-capture/1"},
+         {"camera", camera_of(camera)},
+         {"lights", {{{"type", "directional"}, {"direction", {0.3, -1.0, 0.2}}}}},
+         {"bias", {{"texels", 0.5}, {"follows_plane", true}}},
+         {"maps", maps},
+         {"casters", {box_of(tower[0])}},
+         {"receivers", {box_of(all[0]), box_of(all[1])}}};
+  const Judgement judgement = judged(c);
+  EXPECT_THAT(kinds(judgement), testing::IsEmpty());
+  ASSERT_EQ(judgement.lights.size(), 1u);
+  // gnomon's plans beside it hold all that is measured, with no more texels.
+  for (const auto& beside : {judgement.lights[0].tight, judgement.lights[0].stable}) {
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(beside->error.outside, 0u);
+    EXPECT_LE(beside->texels, judgement.lights[0].texels);
+  }
+  // Depths that the tower's shadow falls on need one.
+  for (Json& map : c["maps"]) map["depths"][0] = 0.999 * map["depths"][1].get<double>();
+  EXPECT_THAT(kinds(judged(c)), testing::Contains("gap_between_maps"));
+}
+
 TEST(SoundCaptures, have_plans_beside_them_with_less_error) {
   for (const std::string& name : kNames) {
     if (name == "three_spot") continue;  // a spot near by: both have texels to spare

@@ -123,8 +123,9 @@ std::string maps_text(int maps, std::int64_t texels, const AliasingStats& error)
 std::string gain_text(const AliasingStats& captured, const AliasingStats& planned) {
   const double times = captured.p95 / planned.p95;
   if (!(std::isfinite(times) && times > 0.0)) return {};
-  return times >= 1.0 ? " (p95: " + judge::digits(times) + " times less)"
-                      : " (p95: " + judge::digits(1.0 / times) + " times more)";
+  const std::string size = judge::digits(std::max(times, 1.0 / times));
+  if (size == judge::digits(1.0)) return " (p95: the same)";
+  return " (p95: " + size + (times >= 1.0 ? " times less)" : " times more)");
 }
 
 void print_finding(const judge::Finding& finding, std::size_t frames) {
