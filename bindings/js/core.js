@@ -3,16 +3,17 @@ import { GnomonError, Memory, constants, numberOf, numbersOf, structs, wholeOf }
 
 const MAPS = constants.MAX_MAPS;
 const OMISSIONS = constants.MAX_OMISSIONS;
-const OMISSION_KINDS = ['cascadeWithoutReceiver', 'cascadeWithoutCaster', 'depthWithoutReceiver', 'depthNotVisible',
+// Names of C's constants by their numbers.
+export const OMISSION_KINDS = ['cascadeWithoutReceiver', 'cascadeWithoutCaster', 'depthWithoutReceiver', 'depthNotVisible',
   'warpWithoutGain', 'warpInStableFit', 'partWithoutCaster', 'partitionWithoutGain', 'partitionInStableFit',
   'faceWithoutReceiver', 'faceWithoutCaster', 'resolutionWithoutGain', 'depthNearLight', 'optionIgnored',
   'viewWithoutReceiver', 'pagesCoarsened', 'pointsLeftCoarser', 'pointsBeyondLevels', 'shapeWithoutGain',
-  'planeWithoutReceiver', 'planeWithoutCaster', 'cascadeOnPlanes', 'facesLessDivided', 'receiverNearLight'];
-const IGNORED = ['splitPartition', 'splitScheme', 'splitOverlap', 'depths', 'resolutionTexelBudget', 'history', 'splitSelection',
+  'planeWithoutReceiver', 'planeWithoutCaster', 'cascadeOnPlanes', 'facesLessDivided', 'receiverNearLight', 'cascadeWithoutGain'];
+export const IGNORED = ['splitPartition', 'splitScheme', 'splitOverlap', 'depths', 'resolutionTexelBudget', 'history', 'splitSelection',
   'cadenceFrames', 'points', 'warpShape', 'warpPlanes', 'share', 'reachTexels'];
-const EVENT_KINDS = ['mapAppeared', 'mapRefitted', 'densityJump'];
-const REUSE_KINDS = ['none', 'identical', 'scrolled'];
-const POINT_STATUS = ['ok', 'outside', 'facesAway', 'undetermined'];
+export const EVENT_KINDS = ['mapAppeared', 'mapRefitted', 'densityJump'];
+export const REUSE_KINDS = ['none', 'identical', 'scrolled'];
+export const POINT_STATUS = ['ok', 'outside', 'facesAway', 'undetermined'];
 
 // Handles that nobody destroyed are freed with their object.
 const handles = new FinalizationRegistry(({ exports, destroy, at }) => exports[destroy](at));

@@ -2,7 +2,8 @@
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import test from 'node:test';
-import { structs } from '../layout.js';
+import { EVENT_KINDS, IGNORED, OMISSION_KINDS, POINT_STATUS, REUSE_KINDS } from '../core.js';
+import { constants, structs } from '../layout.js';
 import { boxes } from './street.js';
 
 const { GnomonError, load } = await import(process.env.MODULE ?? '../index.js');
@@ -33,6 +34,20 @@ test('every option of the types is one of C, and the other way round', () => {
     const fields = Object.keys(structs[struct].fields).filter((field) => field !== 'size' && field !== 'reserved').map(camel);
     assert.deepEqual([...members(name)].sort(), fields.sort(), name);
   }
+});
+
+test('every number of C has a name', () => {
+  const header = readFileSync(new URL('../../../include/gnomon/c/gnomon.h', import.meta.url), 'utf8');
+  const numbersOf = (first) => [...header.match(new RegExp(`enum \\{\\s*(GNOMON_${first} = 0[^}]*)`))[1]
+    .matchAll(/^\s*GNOMON_(\w+) =/gm)].map((match) => match[1]);
+  for (const [first, names] of [['CASCADE_WITHOUT_RECEIVER', OMISSION_KINDS], ['IGNORED_PARTITION', IGNORED], ['MAP_APPEARED', EVENT_KINDS],
+    ['REUSE_NONE', REUSE_KINDS], ['POINT_OK', POINT_STATUS]]) {
+    const all = numbersOf(first);
+    assert.deepEqual(all.map((name) => constants[name]), all.map((_, i) => i), first);
+    assert.equal(names.length, all.length, first);
+  }
+  const camel = (name) => name.toLowerCase().replace(/_(.)/g, (_, letter) => letter.toUpperCase());
+  assert.deepEqual(OMISSION_KINDS, numbersOf('CASCADE_WITHOUT_RECEIVER').map(camel));
 });
 
 test('names are listed with a line about each', () => {
