@@ -6,9 +6,6 @@
 using namespace gnomon;
 using namespace gnomon::c;
 
-static_assert(static_cast<int>(BiasWay::rasterizer) == GNOMON_BIAS_RASTERIZER &&
-              static_cast<int>(BiasWay::normal_offset) == GNOMON_BIAS_NORMAL_OFFSET);
-
 extern "C" {
 
 int32_t gnomon_translate_bias(const gnomon_plan* plan, int32_t map, int32_t way, double kernel_radius_texels,

@@ -124,8 +124,6 @@ void gnomon_describe(const gnomon_omission* omission, gnomon_text* text) {
   if (omission == nullptr || text == nullptr) return;
   *text = {};
   if (omission->kind < 0 || omission->kind > GNOMON_CASCADE_WITHOUT_GAIN) return;
-  // It becomes an index.
-  if (omission->kind == GNOMON_OPTION_IGNORED && !(omission->a >= 0.0 && omission->a <= 1000.0)) return;
   const OmissionText words = describe(Omission{static_cast<OmissionKind>(omission->kind), omission->map,
                                                omission->a, omission->b, omission->saves_texels});
   static_assert(sizeof words.what == sizeof text->what && sizeof words.why == sizeof text->why);

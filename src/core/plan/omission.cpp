@@ -62,8 +62,8 @@ void describe_ignored(const Omission& o, OmissionText& text) noexcept {
       {"option pages.share",
        "this policy weighs all points together, and leaves none to twice the texel size"},
       {"option pages.reach_texels", "this policy opens pages round shadow edges by itself"}};
+  if (!(o.a > -1.0 && o.a < static_cast<double>(std::size(kEntries)))) return;
   const auto at = static_cast<std::size_t>(o.a);
-  if (at >= std::size(kEntries)) return;
   std::snprintf(text.what.data(), text.what.size(), "%s", kEntries[at].what);
   std::snprintf(text.why.data(), text.why.size(), "%s", kEntries[at].why);
 }

@@ -47,6 +47,11 @@ TEST(Omission, every_kind_has_words_that_end_within_their_arrays) {
   }
 }
 
+TEST(Omission, an_option_that_is_none_has_no_words) {
+  for (const double option : {-1.0, 1e300, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_STREQ(describe({OmissionKind::option_ignored, -1, option, 0.0, 0}).what.data(), "") << option;
+}
+
 // "the objective with it is inf of the objective without".
 TEST(Omission, a_ratio_without_bound_has_words_and_no_number) {
   for (const OmissionKind kind : {OmissionKind::warp_without_gain, OmissionKind::partition_without_gain,
