@@ -25,12 +25,13 @@ inline constexpr double kMaxRadiusTexels = 32.0;  ///< of a kernel
 inline constexpr double kMaxRadiusWorld = 1.0e6;
 inline constexpr int kMaxAnisotropy = 16;
 
-/// A number that one filter alone understands. An integer or a switch is a number, too.
+/// A number that one filter alone understands. A switch is a number, too.
 struct FilterOption {
   std::string_view name;        ///< as on command lines
   double fallback = 0.0;        ///< the default
   double min = 0.0, max = 1.0;  ///< both ends included
   std::string_view summary;     ///< one line, with the unit
+  bool whole = false;           ///< settle_options() rounds it
 };
 
 /// Number format of a channel of a stored texel.
@@ -56,7 +57,7 @@ enum class BlurShape : std::uint8_t { box, gauss };
 
 /// A filter with its settings. Made by default_settings or parse_filter.
 struct FilterSettings {
-  const Filter* filter = nullptr;  ///< never nullptr in settings that parse_filter made
+  const Filter* filter = nullptr;  ///< never nullptr in what parse_filter understood
   /// Half width of the kernel. In texels, the kernel is a box of 2 radius + 1 texels (0: the single texel, or
   /// the hardware's 2 x 2). In world units, it has the variance of a disc of this radius.
   double radius = 1.0;
@@ -148,7 +149,8 @@ struct FilterInfo {
 
   /// Channels of a stored texel, 1..kMaxChannels. nullptr for MapRead::depth.
   int (*channels)(const FilterSettings& settings) noexcept = nullptr;
-  /// Brings options into what the format can hold. nullptr: nothing to do.
+  /// Brings options into what the format can hold, once those that are whole are rounded: see
+  /// settle_options(). nullptr: nothing to do.
   void (*settle)(FilterSettings& settings) noexcept = nullptr;
   /// Radius of the kernel over the shadow of something this far from the receiver. Across the light at the
   /// receiver, world units; light_distance 0: parallel light. FilterSettings::radius is then the widest that
@@ -234,9 +236,13 @@ struct Filter {
 [[nodiscard]] FilterSettings settings_for_map(const FilterSettings& settings,
                                               const MapDepths& depths) noexcept;
 
+/// Rounds options that are whole numbers, and brings all into what the format can hold. After each change of
+/// options, of the format or of the unit.
+void settle_options(FilterSettings& settings) noexcept;
+
 /// Settings, or one line that says what is wrong with the text.
 struct ParsedFilter {
-  FilterSettings settings;  ///< the default where the text is wrong
+  FilterSettings settings;  ///< the filter's default where the text is wrong; no filter where the name is
   std::string error;        ///< empty where the text was understood
 };
 /// Reads "NAME" or "NAME:KEY=VALUE,KEY=VALUE". Keys are radius, unit (texels, world), blur (box, gauss),

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kMaxTerms = 16;
 constexpr FilterOption kOptions[] = {
-    {"order", 16, 1, kMaxTerms, "terms of the series, two channels each: more terms make sharper contacts"},
+    {"order", 16, 1, kMaxTerms, "terms of the series, two channels each: more terms make sharper contacts",
+     true},
     {"attenuation", 2.5, 0.0, 4.0,
      "damping: term k is weighted by exp(-attenuation (k/order)^2); larger rings less, softens contacts"},
     {"offset", 0.0, 0.0, 1.0,
@@ -30,9 +31,6 @@ constexpr TexelFormat kFormats[] = {TexelFormat::unorm8, TexelFormat::fp16, Texe
 
 int order_of(const FilterSettings& settings) noexcept {
   return static_cast<int>(settings.option[kPlace("order")]);
-}
-void settle(FilterSettings& settings) noexcept {
-  settings.option[kPlace("order")] = std::round(settings.option[kPlace("order")]);
 }
 int channels(const FilterSettings& settings) noexcept {
   return 2 * order_of(settings);
@@ -125,7 +123,6 @@ const Filter filters::convolution{
             .may_mipmap = true,
             .terms_option = kPlace("order"),
             .channels = channels,
-            .settle = settle,
         },
     .reference =
         {

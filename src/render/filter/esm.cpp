@@ -26,12 +26,13 @@ constexpr FilterOption kOptions[] = {
     {"c", 160.0, 1.0, 10000.0,
      "largest exponent over the depth range: larger leaks less; above 160 slower; at most 80 in 16 bits"},
     {"fallback", 1.0, 0.0, 2.0,
-     "2x2 comparisons where the mean fails: 0 never, 1 by threshold, 2 by largest depth"},
+     "2x2 comparisons where the mean fails: 0 never, 1 by threshold, 2 by largest depth", true},
     {"epsilon", 0.02, 0.0, 1.0,
      "visibility above 1 that still counts as valid; beyond it the fallback is used"},
     option::falloff_world,
     option::falloff_kernel(4.0),
-    {"failures", 0.0, 0.0, 1.0, "1 shows where the mean fails by `fallback`, dark, in place of shadows"},
+    {"failures", 0.0, 0.0, 1.0, "1 shows where the mean fails by `fallback`, dark, in place of shadows",
+     true},
 };
 constexpr OptionPlaces kPlace(kOptions);
 constexpr TexelFormat kFormats[] = {TexelFormat::fp32, TexelFormat::fp16, TexelFormat::unorm16};
@@ -44,8 +45,6 @@ constexpr double kMaxPlainC = 160.0;
 void settle(FilterSettings& settings) noexcept {
   if (settings.format != TexelFormat::fp32)
     settings.option[kPlace("c")] = std::min(settings.option[kPlace("c")], kMaxC16);
-  settings.option[kPlace("fallback")] = std::round(settings.option[kPlace("fallback")]);
-  settings.option[kPlace("failures")] = std::round(settings.option[kPlace("failures")]);
 }
 
 void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {

@@ -105,8 +105,15 @@ FilterSettings default_settings(const Filter& filter) noexcept {
   if (!filter.info.formats.empty()) settings.format = filter.info.formats[0];
   for (std::size_t i = 0; i < filter.info.options.size(); ++i)
     settings.option[i] = filter.info.options[i].fallback;
-  if (filter.info.settle != nullptr) filter.info.settle(settings);
+  settle_options(settings);
   return settings;
+}
+
+void settle_options(FilterSettings& settings) noexcept {
+  const FilterInfo& info = settings.filter->info;
+  for (std::size_t i = 0; i < info.options.size(); ++i)
+    if (info.options[i].whole) settings.option[i] = std::round(settings.option[i]);
+  if (info.settle != nullptr) info.settle(settings);
 }
 
 MapRead reads_of(const FilterSettings& settings) noexcept {

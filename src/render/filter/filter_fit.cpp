@@ -209,7 +209,7 @@ std::vector<FilterSettings> candidates_of(const FilterSettings& full) {
         FilterSettings candidate = base;
         candidate.format = format;
         if (terms >= 0) candidate.option[static_cast<std::size_t>(terms)] = count;
-        if (filter.info.settle != nullptr) filter.info.settle(candidate);
+        settle_options(candidate);
         if (bytes_per_texel(candidate) < bytes_per_texel(full)) all.push_back(candidate);
       }
     }

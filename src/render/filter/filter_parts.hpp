@@ -60,7 +60,8 @@ constexpr double kBoxOfDisc = 0.8660254037844386;
 namespace option {
 /// For the filters whose kernel can cover the pixel.
 inline constexpr FilterOption footprint{
-    "footprint", 0, 0, 1, "1 widens the kernel to the pixel's footprint, at most 32 texels to each side"};
+    "footprint", 0, 0, 1, "1 widens the kernel to the pixel's footprint, at most 32 texels to each side",
+    true};
 /// For the filters of a light with a size.
 inline constexpr FilterOption angle_deg{
     "angle_deg", 2.0, 0.01, 60.0, "apparent diameter of a directional light, degrees; the sun has 0.53"};

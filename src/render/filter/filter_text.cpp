@@ -77,7 +77,7 @@ std::string read_pair(std::string_view key, std::string_view text, FilterSetting
   if (key == "anisotropy" && filter.info.may_mipmap) {
     double probes = 1.0;
     const std::string error = read_number(key, text, 1.0, kMaxAnisotropy, probes);
-    settings.anisotropy = static_cast<int>(probes);
+    settings.anisotropy = static_cast<int>(std::round(probes));
     return error;
   }
   for (std::size_t i = 0; i < filter.info.options.size(); ++i) {
@@ -170,24 +170,26 @@ ParsedFilter parse_filter(std::string_view text) {
       known += (known.empty() ? "" : ", ") + std::string(each->info.name);
     return {{}, "'" + std::string(name) + "': wants one of " + known};
   }
-  ParsedFilter result{default_settings(*filter), ""};
+  FilterSettings settings = default_settings(*filter);
+  const auto wrong = [&filter](std::string why) {
+    return ParsedFilter{default_settings(*filter), std::move(why)};
+  };
   text.remove_prefix(std::min(colon + 1, text.size()));
   while (!text.empty()) {
     const std::size_t end = std::min(text.find(','), text.size());
     const std::string_view pair = text.substr(0, end);
     const std::size_t equals = pair.find('=');
     text.remove_prefix(std::min(end + 1, text.size()));
-    result.error = equals == std::string_view::npos
-                       ? "'" + std::string(pair) + "': wants KEY=VALUE"
-                       : read_pair(pair.substr(0, equals), pair.substr(equals + 1), result.settings);
-    if (!result.error.empty()) return result;
+    if (equals == std::string_view::npos) return wrong("'" + std::string(pair) + "': wants KEY=VALUE");
+    std::string error = read_pair(pair.substr(0, equals), pair.substr(equals + 1), settings);
+    if (!error.empty()) return wrong(std::move(error));
   }
-  if (result.settings.unit == KernelUnit::texels && result.settings.radius > kMaxRadiusTexels) {
-    result.error = "radius=" + number_text(result.settings.radius) + ": at most " +
-                   number_text(kMaxRadiusTexels) + " texels";
+  if (settings.unit == KernelUnit::texels && settings.radius > kMaxRadiusTexels) {
+    return wrong("radius=" + number_text(settings.radius) + ": at most " + number_text(kMaxRadiusTexels) +
+                 " texels");
   }
-  if (filter->info.settle != nullptr) filter->info.settle(result.settings);
-  return result;
+  settle_options(settings);
+  return {settings, ""};
 }
 
 std::string to_string(const FilterSettings& settings) {

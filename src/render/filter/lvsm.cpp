@@ -25,10 +25,10 @@ constexpr FilterOption kOptions[] = {
     {"floor", 1e-6, 0.0, 0.1,
      "least variance, as a share of a layer's depth squared; never below the format's rounding"},
     {"slope", 1.0, 0.0, 1.0, "share of the surface's slope within a texel that the second moment includes"},
-    {"layers", 4, 1, kMaxLayers, "layers of depth, two channels each: more layers bleed less"},
+    {"layers", 4, 1, kMaxLayers, "layers of depth, two channels each: more layers bleed less", true},
     {"overlap", 0.5, 0.0, 1.0, "part of the neighbouring layers that a layer also covers, in layers"},
     {"placement", 0, 0, 1,
-     "0 even layers; 1 layers fitted to the depths of each map, which are read back to the CPU"},
+     "0 even layers; 1 layers fitted to the depths of each map, which are read back to the CPU", true},
 };
 /// `ends`: the first of the ends of all layers but the last; 0: even layers.
 constexpr std::string_view kOwnOptions[] = {"ends"};
@@ -38,10 +38,6 @@ constexpr TexelFormat kFormats[] = {TexelFormat::unorm16, TexelFormat::fp16, Tex
 
 int layers_of(const FilterSettings& settings) noexcept {
   return static_cast<int>(settings.option[kPlace("layers")]);
-}
-void settle(FilterSettings& settings) noexcept {
-  settings.option[kPlace("layers")] = std::round(settings.option[kPlace("layers")]);
-  settings.option[kPlace("placement")] = std::round(settings.option[kPlace("placement")]);
 }
 int channels(const FilterSettings& settings) noexcept {
   return 2 * layers_of(settings);
@@ -124,7 +120,6 @@ const Filter filters::lvsm{
             .may_mipmap = true,
             .terms_option = kPlace("layers"),
             .channels = channels,
-            .settle = settle,
         },
     .reference =
         {

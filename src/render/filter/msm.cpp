@@ -11,7 +11,7 @@ namespace {
 
 constexpr FilterOption kOptions[] = {
     {"bounded", 0.0, 0.0, 1.0,
-     "0 Hamburger bound, over all depths; 1 Hausdorff bound, over the map's depth range: darker"},
+     "0 Hamburger bound, over all depths; 1 Hausdorff bound, over the map's depth range: darker", true},
     {"bleed", 0.1, 0.0, 0.95,
      "visibility up to this counts as bleeding and becomes 0: larger bleeds less, hardens edges"},
     {"bias", 0.0, 0.0, 0.1,
@@ -63,10 +63,6 @@ double visibility(const StoredTexel& texel, const FilterLookup& lookup, const Fi
   return without_bleeding(saturate(1.0 - dark), settings.option[kPlace("bleed")]);
 }
 
-void settle(FilterSettings& settings) noexcept {
-  settings.option[kPlace("bounded")] = std::round(settings.option[kPlace("bounded")]);
-}
-
 }  // namespace
 
 const Filter filters::msm{
@@ -81,7 +77,6 @@ const Filter filters::msm{
             .formats = kFormats,
             .may_mipmap = true,
             .channels = channels,
-            .settle = settle,
         },
     .reference =
         {

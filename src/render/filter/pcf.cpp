@@ -9,9 +9,9 @@ namespace gnomon::render {
 namespace {
 
 constexpr FilterOption kOptions[] = {
-    {"pattern", 0, 0, 2, "kernel: 0 box of texels, 1 Vogel disc, 2 Poisson disc"},
-    {"samples", 16, 1, 64, "samples of a disc, four comparisons each"},
-    {"rotate", 1, 0, 1, "1 rotates the disc per pixel: noise instead of banding; 0 does not"},
+    {"pattern", 0, 0, 2, "kernel: 0 box of texels, 1 Vogel disc, 2 Poisson disc", true},
+    {"samples", 16, 1, 64, "samples of a disc, four comparisons each", true},
+    {"rotate", 1, 0, 1, "1 rotates the disc per pixel: noise instead of banding; 0 does not", true},
     option::footprint,
 };
 constexpr OptionPlaces kPlace(kOptions);
@@ -70,11 +70,6 @@ double visibility(const StoredTexel&, const FilterLookup& asked, const FilterSet
   return sum / samples;
 }
 
-/// Whole patterns and samples.
-void settle(FilterSettings& settings) noexcept {
-  for (double& option : settings.option) option = std::round(option);
-}
-
 }  // namespace
 
 const Filter filters::pcf{
@@ -88,7 +83,6 @@ const Filter filters::pcf{
             .bias_class = FilterClass::wide_kernel,
             .options = kOptions,
             .lookup_reach_texels = 1.5,
-            .settle = settle,
         },
     .reference =
         {

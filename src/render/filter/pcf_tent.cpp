@@ -50,7 +50,6 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
 }
 
 void settle(FilterSettings& settings) noexcept {
-  settings.option[kPlace("footprint")] = std::round(settings.option[kPlace("footprint")]);
   settings.option[kPlace("in_world")] = settings.unit == KernelUnit::world ? 1.0 : 0.0;
 }
 

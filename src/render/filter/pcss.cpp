@@ -13,9 +13,9 @@ namespace {
 constexpr FilterOption kOptions[] = {
     option::angle_deg,
     option::light_radius,
-    {"search_samples", 16, 1, 64, "depths read by the blocker search"},
-    {"samples", 32, 1, 64, "samples of the kernel, four comparisons each"},
-    {"rotate", 1, 0, 1, "1 rotates the samples per pixel: noise instead of banding; 0 does not"},
+    {"search_samples", 16, 1, 64, "depths read by the blocker search", true},
+    {"samples", 32, 1, 64, "samples of the kernel, four comparisons each", true},
+    {"rotate", 1, 0, 1, "1 rotates the samples per pixel: noise instead of banding; 0 does not", true},
 };
 constexpr OptionPlaces kPlace(kOptions);
 
@@ -51,12 +51,6 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
   return lit / samples;
 }
 
-/// Whole samples.
-void settle(FilterSettings& settings) noexcept {
-  for (const std::size_t i : {kPlace("search_samples"), kPlace("samples"), kPlace("rotate")})
-    settings.option[i] = std::round(settings.option[i]);
-}
-
 }  // namespace
 
 const Filter filters::pcss{
@@ -70,7 +64,6 @@ const Filter filters::pcss{
             .options = kOptions,
             .default_radius = 12.0,
             .lookup_reach_texels = 1.5,
-            .settle = settle,
             .penumbra_radius_world = penumbra_radius<kPlace>,
         },
     .reference =

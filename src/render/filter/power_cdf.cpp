@@ -21,7 +21,7 @@ constexpr FilterOption kOptions[] = {
      "longest receiver offset, world units: alike in all maps; 0: no limit but falloff_kernel"},
     {"falloff_kernel", 0.0, 0.0, 1000.0, "the same in half widths of the kernel; the longer of both counts"},
     {"layers", 1, 1, kMaxLayers,
-     "layers of depth, four channels each: more of them part occluders behind each other"},
+     "layers of depth, four channels each: more of them part occluders behind each other", true},
 };
 /// `longest`: the longest offset, of the depth range; 0: no limit.
 constexpr std::string_view kOwnOptions[] = {"longest"};
@@ -37,9 +37,6 @@ void fit_map(FilterSettings& settings, const MapDepths& depths) noexcept {
 
 int layers_of(const FilterSettings& settings) noexcept {
   return static_cast<int>(settings.option[kPlace("layers")]);
-}
-void settle(FilterSettings& settings) noexcept {
-  settings.option[kPlace("layers")] = std::round(settings.option[kPlace("layers")]);
 }
 /// A layer's least, mean and largest depth have a vector of their own.
 int channels(const FilterSettings& settings) noexcept {
@@ -153,7 +150,6 @@ const Filter filters::power_cdf{
             .formats = kFormats,
             .may_mipmap = true,
             .channels = channels,
-            .settle = settle,
         },
     .reference =
         {

@@ -15,7 +15,7 @@ constexpr double kLongestRun = 8.0;
 
 constexpr FilterOption kOptions[] = {
     {"run", kLongestRun, 1, kLongestRun,
-     "texels that an edge is followed to either side; larger straightens flatter edges, costs reads"},
+     "texels that an edge is followed to either side; larger straightens flatter edges, costs reads", true},
 };
 constexpr OptionPlaces kPlace(kOptions);
 
@@ -74,11 +74,6 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
   return outline.lit != flips ? 1.0 : 0.0;
 }
 
-/// Whole texels.
-void settle(FilterSettings& settings) noexcept {
-  settings.option[kPlace("run")] = std::round(settings.option[kPlace("run")]);
-}
-
 }  // namespace
 
 const Filter filters::revectorized{
@@ -93,7 +88,6 @@ const Filter filters::revectorized{
             .default_radius = 0.0,
             .has_kernel = false,
             .lookup_reach_texels = kLongestRun + 0.5,
-            .settle = settle,
         },
     .reference =
         {

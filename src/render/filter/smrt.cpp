@@ -15,9 +15,9 @@ namespace {
 constexpr FilterOption kOptions[] = {
     option::angle_deg,
     option::light_radius,
-    {"rays", 16, 1, 64, "rays to the light: more have less noise, at their price"},
-    {"steps", 4, 1, 64, "texels read along a ray: more keep thin casters apart, at their price"},
-    {"rotate", 1, 0, 1, "1 turns and shifts the rays per pixel: noise instead of banding; 0 does not"},
+    {"rays", 16, 1, 64, "rays to the light: more have less noise, at their price", true},
+    {"steps", 4, 1, 64, "texels read along a ray: more keep thin casters apart, at their price", true},
+    {"rotate", 1, 0, 1, "1 turns and shifts the rays per pixel: noise instead of banding; 0 does not", true},
 };
 constexpr OptionPlaces kPlace(kOptions);
 
@@ -80,12 +80,6 @@ double visibility(const StoredTexel&, const FilterLookup& lookup, const FilterSe
   return 1.0 - static_cast<double>(blocked) / rays;
 }
 
-/// Whole rays and steps.
-void settle(FilterSettings& settings) noexcept {
-  for (const std::size_t i : {kPlace("rays"), kPlace("steps"), kPlace("rotate")})
-    settings.option[i] = std::round(settings.option[i]);
-}
-
 }  // namespace
 
 const Filter filters::smrt{
@@ -99,7 +93,6 @@ const Filter filters::smrt{
             .options = kOptions,
             .default_radius = 12.0,
             .lookup_reach_texels = 1.5,
-            .settle = settle,
             .penumbra_radius_world = penumbra_radius<kPlace>,
         },
     .reference =

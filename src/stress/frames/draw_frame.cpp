@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <iterator>
 #include <string>
+#include <vector>
 
 #include "dice.hpp"
 #include "frame_scene.hpp"
@@ -131,11 +133,14 @@ Json draw_lamp(Dice& dice, const World& world, Stage& s, bool flat) {
 
 /// A filter with a kernel that leaves something of a small map; those that store texels in any format.
 std::string draw_filter(Dice& dice, bool of_pool, bool of_lights) {
-  const auto filters = render::all_filters();
+  std::vector<const render::Filter*> all(render::all_filters().begin(), render::all_filters().end());
+  std::vector<const render::Filter*> comparing;
+  std::copy_if(all.begin(), all.end(), std::back_inserter(comparing),
+               [](const render::Filter* f) { return f->info.reads == render::MapRead::depth; });
   for (;;) {
     // Comparing filters, whose answers are exact, half of the time.
-    const auto* filter =
-        filters[static_cast<std::size_t>(dice.pick(dice.chance(0.5) ? 7 : static_cast<int>(filters.size())))];
+    const auto& filters = dice.chance(0.5) ? comparing : all;
+    const auto* filter = filters[static_cast<std::size_t>(dice.pick(static_cast<int>(filters.size())))];
     render::FilterSettings settings = render::default_settings(*filter);
     if (filter->info.has_kernel) settings.radius = dice.chance(0.3) ? 0.0 : dice.between(0.25, 3.5);
     if (!filter->info.formats.empty() && dice.chance(0.4))
@@ -143,7 +148,7 @@ std::string draw_filter(Dice& dice, bool of_pool, bool of_lights) {
           filter->info
               .formats[static_cast<std::size_t>(dice.pick(static_cast<int>(filter->info.formats.size())))];
     if (!filter->info.formats.empty() && dice.chance(0.3)) settings.blur = render::BlurShape::gauss;
-    if (filter->info.settle != nullptr) filter->info.settle(settings);
+    render::settle_options(settings);
     std::string text = render::to_string(settings);
     if (!of_pool && dice.chance(0.05))
       text += (text.find(':') == std::string::npos ? ":" : ",") + std::string("contacts=1");

@@ -55,7 +55,7 @@ void print_filter_contacts(const FiltersRequest& request) {
     for (const render::TexelFormat format : asked.filter->info.formats) {
       settings = asked;
       settings.format = format;
-      if (asked.filter->info.settle != nullptr) asked.filter->info.settle(settings);
+      render::settle_options(settings);
       print_line(row_of(settings, request.json));
     }
   }

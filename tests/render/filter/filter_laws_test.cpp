@@ -29,7 +29,7 @@ std::vector<FilterSettings> variants() {
     for (const TexelFormat format : filter->info.formats) {
       FilterSettings other = settings;
       other.format = format;
-      if (filter->info.settle != nullptr) filter->info.settle(other);
+      settle_options(other);
       if (format != settings.format) all.push_back(other);
     }
   }

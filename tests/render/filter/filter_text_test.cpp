@@ -71,7 +71,7 @@ TEST(FilterText, is_the_name_alone_by_default_and_reads_back_to_the_same_setting
       other.option[i] = std::floor(0.5 * (filter->info.options[i].min + filter->info.options[i].max));
       other.option[i] = std::max(other.option[i], filter->info.options[i].min);
     }
-    if (filter->info.settle != nullptr) filter->info.settle(other);
+    settle_options(other);
     const ParsedFilter back = parse_filter(to_string(other));
     EXPECT_EQ(back.error, "") << to_string(other);
     EXPECT_EQ(to_string(back.settings), to_string(other));
