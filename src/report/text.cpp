@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
+#include <nlohmann/json.hpp>
 
 #include "base/json_scan.hpp"
 #include "gnomon/report/row.hpp"
@@ -105,6 +106,23 @@ void check_nesting(std::string_view json) {
   constexpr int kDepth = 32;
   if (nested_deeper_at(json, kDepth) != std::string_view::npos)
     throw ReportError("nested deeper than " + std::to_string(kDepth) + " levels");
+}
+
+void for_each_json_line(std::string_view text, const std::string& where,
+                        const std::function<void(std::string_view line)>& visit) {
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = text.find('\n');
+    const std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    if (line.empty()) continue;
+    try {
+      check_nesting(line);
+      if (end == std::string_view::npos && !nlohmann::json::accept(line)) continue;
+      visit(line);
+    } catch (const ReportError& error) {
+      throw ReportError(one_line(where + ":" + std::to_string(number) + ": " + error.what()));
+    }
+  }
 }
 
 std::string for_script(std::string json) {

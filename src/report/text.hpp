@@ -1,6 +1,7 @@
 // Text made safe for where it goes, and numbers made short.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,11 @@ namespace gnomon::report {
 [[nodiscard]] std::string one_line(std::string_view text);
 /// Throws ReportError for brackets deeper than 32, which would be taken apart on the stack; a row needs 4.
 void check_nesting(std::string_view json);
+/// Visits each line that is not empty. The last one may lack its end: a whole row that way counts, and one
+/// that a writer was cut off in is skipped. A ReportError of `visit`, and of lines nested too deeply, gets
+/// "where:number: " in front.
+void for_each_json_line(std::string_view text, const std::string& where,
+                        const std::function<void(std::string_view line)>& visit);
 /// JSON that may stand in a script element: no character of it can end the element.
 [[nodiscard]] std::string for_script(std::string json);
 /// Three significant digits, without an exponent between 1e-4 and 1e6.

@@ -32,12 +32,14 @@ TEST(GpuRuns, a_file_without_a_machine_is_refused) {
   EXPECT_THROW((void)read_gpu_run(kRows, "a"), ReportError);
 }
 
-TEST(GpuRuns, a_row_that_lacks_a_number_is_refused_with_its_line) {
-  try {
-    (void)read_gpu_run(machine(true, "m") + "{\"part\":\"masks\",\"what\":\"maps\"}\n", "a.jsonl");
-    FAIL();
-  } catch (const ReportError& error) {
-    EXPECT_NE(std::string(error.what()).find("a.jsonl: line 2"), std::string::npos) << error.what();
+TEST(GpuRuns, a_row_that_lacks_a_number_or_is_nested_too_deeply_is_refused_with_its_line) {
+  for (const std::string& row : {std::string(R"({"part":"masks","what":"maps"})"), std::string(40, '[')}) {
+    try {
+      (void)read_gpu_run(machine(true, "m") + row + "\n", "a.jsonl");
+      FAIL() << row;
+    } catch (const ReportError& error) {
+      EXPECT_NE(std::string(error.what()).find("a.jsonl:2: "), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -55,6 +55,12 @@ TEST(Stability, rows_are_gathered_by_axis_and_value) {
   EXPECT_EQ(stability.filters.size(), 1u);
 }
 
+TEST(Stability, a_last_row_without_an_end_counts_if_it_is_whole) {
+  const std::string row = kCase.substr(0, kCase.size() - 1);
+  EXPECT_EQ(read_stability(row, "here").cases.size(), 1u);
+  EXPECT_EQ(read_stability(kCase + row.substr(0, row.size() / 2), "here").cases.size(), 1u);
+}
+
 TEST(Stability, numbers_that_are_no_whole_ones_are_refused_where_whole_ones_belong) {
   for (const char* row : {"1e300", "1.5", "4294967296", "-18446744073709551615", "true", "null"}) {
     const std::string line = std::string(R"({"kind":"case","row":)") + row +

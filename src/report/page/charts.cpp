@@ -9,10 +9,6 @@
 namespace gnomon::report {
 namespace {
 
-std::size_t place_in(const std::vector<std::string>& names, const std::string& name) {
-  return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-}
-
 std::vector<double> values_of(const Summary& summary, std::size_t scene, std::size_t measure) {
   std::vector<double> values;
   for (const Cell& cell : summary.cells[scene]) {
@@ -66,8 +62,8 @@ Chart error_time_chart(const Summary& summary, std::size_t scene) {
     const Cell& cell = summary.cells[scene][t];
     if (!cell.measured || std::isnan(cell.values[cost])) continue;  // an entry without times
     chart.mark({cell.values[cost], measures()[error].shown(cell.values[error])},
-               place_in(summary.filters, summary.techniques[t].filter),
-               place_in(summary.kinds, summary.techniques[t].kind()), tip_of(summary, scene, t), t);
+               summary.filter_of(summary.techniques[t]), summary.kind_of(summary.techniques[t]),
+               tip_of(summary, scene, t), t);
   }
   for (std::size_t f = 0; f < summary.filters.size(); ++f) chart.legend_color(summary.filters[f], f);
   for (std::size_t k = 0; k < summary.kinds.size(); ++k) chart.legend_mark(summary.kinds[k], k);
@@ -96,8 +92,7 @@ Chart time_to_error_chart(const Summary& summary, std::size_t scene) {
     }
     chart.line(points, f, "line", summary.filters[f]);
     for (const std::size_t i : front)
-      chart.mark({choices[i].error, choices[i].cost}, f,
-                 place_in(summary.kinds, summary.techniques[techniques[i]].kind()),
+      chart.mark({choices[i].error, choices[i].cost}, f, summary.kind_of(summary.techniques[techniques[i]]),
                  tip_of(summary, scene, techniques[i]), techniques[i]);
     chart.legend_color(summary.filters[f], f);
   }

@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 #include "file.hpp"
 #include "gnomon/report/gpu_files.hpp"
@@ -105,19 +104,15 @@ std::string device_table(const std::vector<GpuRun>& runs, const std::string& cel
 
 GpuRun read_gpu_run(const std::string& text, const std::string& where) {
   GpuRun run;
-  std::istringstream lines(text);
-  std::size_t number = 0;
-  for (std::string line; std::getline(lines, line);) {
-    ++number;
-    // A run that was cut off leaves a line that is not whole.
-    if (line.empty() || !GpuJson::accept(line)) continue;
-    check_nesting(line);
+  for_each_json_line(text, where, [&run](std::string_view line) {
+    // A run that was cut off and went on leaves a line that is not whole.
+    if (!GpuJson::accept(line)) return;
     try {
       add_gpu_row(GpuJson::parse(line), run);
     } catch (const GpuJson::exception& error) {
-      throw ReportError(one_line(where + ": line " + std::to_string(number) + ": " + error.what()));
+      throw ReportError(error.what());
     }
-  }
+  });
   if (run.device.empty())
     throw ReportError(one_line(where + ": no row names the machine: is it a file of measure_gpu?"));
   return run;

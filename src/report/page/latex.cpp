@@ -1,7 +1,6 @@
 // Tables and a section on method for a paper, in LaTeX.
 #include "latex.hpp"
 
-#include <algorithm>
 #include <set>
 
 #include "kinds.hpp"
@@ -33,12 +32,7 @@ std::string latex_medians(const ViewTable& table, const Summary& summary) {
   for (const std::string_view key : kColumns)
     out += " & \\multicolumn{2}{c}{" + head_of(measures()[measure_index(key)]) + "}";
   out += " \\\\\n\\midrule\n";
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t t = 0; t < summary.techniques.size(); ++t)
-    if (const auto e = table.over(table.error, t)) order.emplace_back(e->median, t);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  for (const auto& [error, t] : order) {
+  for (const std::size_t t : table.by_median()) {
     out += latex_text(summary.techniques[t].name());
     for (const std::string_view key : kColumns) {
       const auto e = table.over(key, t);

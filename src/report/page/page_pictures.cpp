@@ -153,9 +153,6 @@ std::string section_viewers(const PageInput& input, const PagePictures& pictures
 
 std::string page_data(const PageInput& input, const PagePictures& pictures) {
   const Summary& summary = input.summary;
-  const auto place_in = [](const std::vector<std::string>& names, const std::string& name) {
-    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
-  };
   Json data{{"start", input.start_scene}, {"scenes", summary.titles}};
   data["measures"] = Json::array();
   for (const Measure& m : measures())
@@ -164,8 +161,8 @@ std::string page_data(const PageInput& input, const PagePictures& pictures) {
   data["techniques"] = Json::array();
   for (const Technique& t : summary.techniques)
     data["techniques"].push_back({{"name", t.name()},
-                                  {"color", color_class(place_in(summary.filters, t.filter))},
-                                  {"mark", place_in(summary.kinds, t.kind()) % kMarks}});
+                                  {"color", color_class(summary.filter_of(t))},
+                                  {"mark", summary.kind_of(t) % kMarks}});
   data["marks"] = Json::array();
   for (std::size_t kind = 0; kind < kMarks; ++kind) data["marks"].push_back(mark_path(kind));
   data["cells"] = Json::array();

@@ -76,13 +76,9 @@ std::string words_of(const Json& value) {
 std::string table_of_lines(const std::string& text, const std::string& where) {
   std::string out;
   std::vector<std::string> columns;
-  std::size_t number = 0;
-  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
-    ++number;
-    if (end == begin) continue;
-    check_nesting(std::string_view(text).substr(begin, end - begin));
-    const Json json = Json::parse(text.substr(begin, end - begin), nullptr, false);
-    if (!json.is_object()) throw ReportError(where + ":" + std::to_string(number) + ": not a JSON object");
+  for_each_json_line(text, where, [&](std::string_view line) {
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object()) throw ReportError("not a JSON object");
     if (columns.empty()) {
       out += scroll_box(where, true) + "<table class=\"words\"><thead><tr>";
       for (const auto& [key, value] : json.items()) {
@@ -95,7 +91,7 @@ std::string table_of_lines(const std::string& text, const std::string& where) {
     for (const std::string& key : columns)
       out += "<td>" + escaped(json.contains(key) ? words_of(json[key]) : std::string()) + "</td>";
     out += "</tr>\n";
-  }
+  });
   return columns.empty() ? std::string() : out + "</tbody></table></div>\n";
 }
 

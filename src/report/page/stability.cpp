@@ -216,26 +216,15 @@ std::string filters_table(const Stability& stability) {
 
 Stability read_stability(const std::string& text, const std::string& where) {
   Stability stability;
-  std::size_t number = 0;
-  for (std::size_t begin = 0, end; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1) {
-    ++number;
-    if (end == begin) continue;
-    const std::string line = where + ":" + std::to_string(number);
-    try {
-      check_nesting(std::string_view(text).substr(begin, end - begin));
-    } catch (const ReportError& error) {
-      throw ReportError(line + ": " + error.what());
-    }
-    const Json json = Json::parse(text.substr(begin, end - begin), nullptr, false);
-    if (!json.is_object()) throw ReportError(line + ": not a JSON object");
+  for_each_json_line(text, where, [&stability](std::string_view line) {
+    const Json json = Json::parse(line, nullptr, false);
+    if (!json.is_object()) throw ReportError("not a JSON object");
     try {
       add_line(json, stability);
     } catch (const Json::exception&) {
-      throw ReportError(line + ": not a row of gnomon stress");
-    } catch (const ReportError& error) {
-      throw ReportError(line + ": " + error.what());
+      throw ReportError("not a row of gnomon stress");
     }
-  }
+  });
   const auto by_value = [](const auto& a, const auto& b) { return a.value < b.value; };
   for (StabilityAxis& axis : stability.axes) std::stable_sort(axis.rows.begin(), axis.rows.end(), by_value);
   for (StabilityFilter& filter : stability.filters)

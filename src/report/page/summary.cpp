@@ -196,6 +196,15 @@ std::vector<std::size_t> Summary::front(std::size_t scene, std::size_t error, st
   return best;
 }
 
+std::size_t Summary::filter_of(const Technique& technique) const {
+  return static_cast<std::size_t>(std::find(filters.begin(), filters.end(), technique.filter) -
+                                  filters.begin());
+}
+
+std::size_t Summary::kind_of(const Technique& technique) const {
+  return static_cast<std::size_t>(std::find(kinds.begin(), kinds.end(), technique.kind()) - kinds.begin());
+}
+
 Summary summarize(const std::vector<Row>& rows) {
   Summary s;
   const SceneNames names(rows);

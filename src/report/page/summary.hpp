@@ -49,6 +49,9 @@ struct Summary {
   std::vector<std::vector<std::size_t>> rows_of;  ///< [scene][row numbers], by frame; none for the first
   std::vector<std::string> filters, kinds;        ///< in the order they appear
 
+  /// The number of a technique's filter, and of its kind.
+  [[nodiscard]] std::size_t filter_of(const Technique& technique) const;
+  [[nodiscard]] std::size_t kind_of(const Technique& technique) const;
   /// Techniques of a scene that no other beats in this error and cost, by rising cost.
   [[nodiscard]] std::vector<std::size_t> front(std::size_t scene, std::size_t error, std::size_t cost) const;
 };

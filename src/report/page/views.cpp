@@ -20,18 +20,6 @@ std::size_t place_in(std::string_view measure) {
                                   kOverViews.begin());
 }
 
-/// Techniques by their median error, least first.
-std::vector<std::size_t> by_median(const ViewTable& table, const Summary& summary) {
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t t = 0; t < summary.techniques.size(); ++t)
-    if (const std::optional<Estimate> e = table.over(table.error, t)) order.emplace_back(e->median, t);
-  std::stable_sort(order.begin(), order.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  std::vector<std::size_t> techniques;
-  for (const auto& [error, t] : order) techniques.push_back(t);
-  return techniques;
-}
-
 /// The best of each filter, of the techniques that the most views have: others are of other views.
 std::vector<std::size_t> best_of_filters(const ViewTable& table, const Summary& summary) {
   constexpr std::size_t kMost = 12;
@@ -43,7 +31,7 @@ std::vector<std::size_t> best_of_filters(const ViewTable& table, const Summary& 
   for (std::size_t t = 0; t < errors.size(); ++t) most = std::max(most, views_of(t));
   std::vector<std::size_t> best;
   std::set<std::string> seen;
-  for (const std::size_t t : by_median(table, summary))
+  for (const std::size_t t : table.by_median())
     if (views_of(t) == most && best.size() < kMost && seen.insert(summary.techniques[t].filter).second)
       best.push_back(t);
   return best;
@@ -54,7 +42,7 @@ std::string median_table(const ViewTable& table, const Summary& summary) {
   for (const std::string_view key : kOverViews)
     out += "<th>" + escaped(measures()[measure_index(key)].column) + "</th>";
   out += "</tr></thead><tbody>\n";
-  for (const std::size_t t : by_median(table, summary)) {
+  for (const std::size_t t : table.by_median()) {
     out += "<tr><td>" + escaped(summary.techniques[t].name()) + "</td>";
     for (const std::string_view key : kOverViews) {
       const std::optional<Estimate> e = table.over(key, t);
@@ -93,6 +81,17 @@ std::string pair_table(const ViewTable& table, const Summary& summary) {
 std::string with_interval(const Measure& measure, const Estimate& e) {
   return measure.text(e.median) + " (" + short_number(measure.shown(e.low)) + " to " +
          short_number(measure.shown(e.high)) + ")";
+}
+
+std::vector<std::size_t> ViewTable::by_median() const {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t t = 0; t < values.front().size(); ++t)
+    if (const std::optional<Estimate> e = over(error, t)) order.emplace_back(e->median, t);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::size_t> techniques;
+  for (const auto& [median, t] : order) techniques.push_back(t);
+  return techniques;
 }
 
 bool ViewTable::everywhere(std::string_view measure, std::size_t technique) const {
@@ -205,12 +204,8 @@ Chart view_chart(const ViewTable& table, const Summary& summary) {
                  "the same technique measured twice: 95 % of the times lie between these lines");
   }
   for (const Place& p : places) {
-    const std::size_t color = static_cast<std::size_t>(
-        std::find(summary.filters.begin(), summary.filters.end(), summary.techniques[p.technique].filter) -
-        summary.filters.begin());
-    const std::size_t kind = static_cast<std::size_t>(
-        std::find(summary.kinds.begin(), summary.kinds.end(), summary.techniques[p.technique].kind()) -
-        summary.kinds.begin());
+    const std::size_t color = summary.filter_of(summary.techniques[p.technique]),
+                      kind = summary.kind_of(summary.techniques[p.technique]);
     const std::string tip = summary.techniques[p.technique].name() + "; " + std::string(error.column) + " " +
                             with_interval(error, p.error) + "; " + std::string(cost.column) + " " +
                             with_interval(cost, p.cost);
@@ -251,7 +246,7 @@ std::string views_csv(const std::vector<Row>& rows, const Summary& summary, cons
   for (const std::string_view key : kOverViews)
     for (const char* const end : {"", "_low", "_high"}) out += "," + std::string(key) + end;
   out += "\n";
-  for (const std::size_t t : by_median(table, summary)) {
+  for (const std::size_t t : table.by_median()) {
     const auto& errors = table.values[place_in(table.error)][t];
     out += columns(summary.techniques[t]) + "," +
            std::to_string(

@@ -38,6 +38,8 @@ struct ViewTable {
 
   /// Median over the views with its interval; nothing where no view has it.
   [[nodiscard]] std::optional<Estimate> over(std::string_view measure, std::size_t technique) const;
+  /// Techniques that a view has, by their median error, least first.
+  [[nodiscard]] std::vector<std::size_t> by_median() const;
   /// True where every view has it.
   [[nodiscard]] bool everywhere(std::string_view measure, std::size_t technique) const;
   /// In how many views the first has the smaller value.
