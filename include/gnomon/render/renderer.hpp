@@ -123,7 +123,7 @@ class Renderer {
   /// Channels "visibility" (1 lit .. 0 in shadow) and "map" (-1: none).
   [[nodiscard]] FloatImage mask() const;
   /// Channels "m_max", "m_s", "m_t", "map". Map -1: sky, or no map serves the point. All m 0: turned from the
-  /// light.
+  /// light, or edge-on to it within a cosine of 0.001.
   [[nodiscard]] FloatImage aliasing() const;
   /// Channels "x", "y", "z" relative to the camera, "depth" along the view.
   [[nodiscard]] FloatImage positions() const;

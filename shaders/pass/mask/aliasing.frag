@@ -5,8 +5,10 @@
 #include "pass/common/surface.glsl"
 
 layout(binding = 6) uniform sampler2D mask_image;
-// m_max, m_s, m_t, map. Map -1: sky, or no map serves the point. All m 0: the surface is turned from the light.
+// m_max, m_s, m_t, map. Map -1: sky, or no map serves the point. All m 0: the surface is turned from the light, or is
+// so nearly edge-on to it that rounding decides m. Exact rays leave such points undecided by the same cosine.
 layout(location = 0) out vec4 aliasing;
+const float kGrazingCosine = 1e-3;
 
 vec3 on_surface(vec3 step_view, vec3 ray, vec3 normal) {
   return step_view - ray * (dot(normal, step_view) / dot(normal, ray));
@@ -17,7 +19,7 @@ void main() {
   Surface s = surface_at(pixel);
   int map = int(texelFetch(mask_image, pixel, 0).g);
   aliasing = vec4(0.0, 0.0, 0.0, float(map));
-  if (s.sky || map < 0 || dot(s.normal, light_at(frame.light_place, s.position)) >= 0.0) return;
+  if (s.sky || map < 0 || dot(s.normal, light_at(frame.light_place, s.position)) > -kGrazingCosine) return;
 
   bool orthographic = frame.forward.w > 0.5;
   vec3 ray = orthographic ? frame.forward.xyz : s.position;

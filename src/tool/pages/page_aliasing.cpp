@@ -39,7 +39,9 @@ float pixel_aliasing(const PagePlan& plan, const Camera& camera, const PageFrame
   if (level == nullptr || !is_surface(images, pixel)) return 0.0f;
   const glm::dvec3 point = camera.position + vector_at(images.positions, pixel),
                    normal = vector_at(images.normals, pixel);
-  if (glm::dot(normal, light_at(plan, *level, point)) >= 0.0) return 0.0f;
+  // As shaders/pass/mask/aliasing.frag.
+  constexpr double kGrazingCosine = 1e-3;
+  if (glm::dot(normal, light_at(plan, *level, point)) > -kGrazingCosine) return 0.0f;
   return static_cast<float>(measure_point(*level, camera, point, normal).m_max);
 }
 

@@ -6,6 +6,7 @@
 #include <glm/matrix.hpp>
 
 #include "filter/filter_block.hpp"
+#include "gnomon/shader.hpp"
 #include "gnomon/trace/tracer.hpp"
 #include "mask_frame.hpp"
 #include "shared_context.hpp"
@@ -85,6 +86,24 @@ TEST_F(LinearDepth, is_0_on_the_near_plane_at_most_1_on_the_far_one_and_even_alo
           }
           EXPECT_NEAR(largest, 1.0, 1e-9);
         }
+      }
+    }
+  }
+}
+
+TEST_F(LinearDepth, engines_get_the_curve_that_the_renderer_draws_with) {
+  const Scene scene = solids();
+  for (const Light& light : kLights) {
+    for (const ClipSpace& space :
+         {ClipSpace{}, ClipSpace{.ndc_depth = NdcDepth::zero_to_one, .reversed_z = true},
+          ClipSpace{.handedness = Handedness::left}}) {
+      const ShadowPlan plan = planned(scene, camera_on_box(64, 64), light, "optimal", 128, space);
+      ASSERT_GT(plan.map_count, 0);
+      const ShaderBlock block = shader_block(plan);
+      for (std::size_t i = 0; i < plan.maps().size(); ++i) {
+        const double curve = depth_curve(plan, plan.map[i]);
+        EXPECT_EQ(curve > 0.0, !std::holds_alternative<DirectionalLight>(light));
+        EXPECT_NEAR(static_cast<double>(block.maps[i].kernel.w), curve, 1e-6 * (1.0 + curve)) << i;
       }
     }
   }

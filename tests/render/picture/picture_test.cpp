@@ -129,6 +129,60 @@ TEST(Air, leaves_a_single_object_its_colours_wherever_the_far_plane_is) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(middle[0][i], middle[1][i], 4) << i;
 }
 
+TEST(HeatColor, is_the_colour_that_shaders_give_a_pixel) {
+  const Scene scene = boxes_on_ground();
+  const Camera camera = going(0.0);
+  PlanOptions options;
+  options.cascades = 3;
+  options.resolution.max_size = 256;
+  const glm::dvec3 light = glm::normalize(glm::dvec3(0.3, -1.0, -0.5));
+  Renderer renderer(scene);
+  renderer.draw(plan_for(scene, camera, light, options), camera, renderer.prepare(filters::hard));
+  const Image heat = renderer.heat_map();
+  const FloatImage aliasing = renderer.aliasing(), normals = renderer.normals(), mask = renderer.mask();
+  const auto mask_channels = static_cast<std::size_t>(mask.channels);
+  int compared = 0;
+  for (std::size_t i = 0; i < heat.rgba.size() / 4; ++i) {
+    if (!(aliasing.values[4 * i] > 0.0f)) continue;
+    const glm::dvec3 normal(normals.values[4 * i], normals.values[4 * i + 1], normals.values[4 * i + 2]);
+    const double shape =
+        0.90 + 0.10 * static_cast<double>(mask.values[mask_channels * i]) * -glm::dot(normal, light);
+    const Color expected = heat_color(static_cast<double>(aliasing.values[4 * i]));
+    for (int k = 0; k < 3; ++k)
+      ASSERT_NEAR(heat.rgba[4 * i + static_cast<std::size_t>(k)], expected[k] * shape, 2.0) << i;
+    ++compared;
+  }
+  EXPECT_GT(compared, 1000);
+}
+
+TEST(CascadeColors, are_those_that_shaders_tint_the_maps_with) {
+  Scene scene = boxes_on_ground();
+  const Camera camera = going(0.0);
+  PlanOptions options;
+  options.cascades = kMaxMaps;
+  options.split.scheme = SplitScheme::uniform;
+  Renderer renderer(scene);
+  renderer.draw(plan_for(scene, camera, {0.3, -1.0, -0.5}, options), camera, renderer.prepare(filters::hard));
+  const Image tinted = renderer.cascade_tint();
+  const FloatImage mask = renderer.mask();
+  const auto mask_channels = static_cast<std::size_t>(mask.channels);
+  // White surfaces take the tint's order of channels, where these differ beyond what air adds.
+  constexpr int kApart = 40;
+  int compared = 0;
+  for (std::size_t i = 0; i < tinted.rgba.size() / 4; ++i) {
+    const int map = static_cast<int>(mask.values[mask_channels * i + 1]);
+    if (map < 0 || mask.values[mask_channels * i] < 1.0f) continue;
+    const Color shown(tinted.rgba[4 * i], tinted.rgba[4 * i + 1], tinted.rgba[4 * i + 2]),
+        expected = cascade_color(map);
+    for (const auto& [a, b] : {std::pair{0, 1}, {1, 2}, {0, 2}}) {
+      const int apart = expected[a] - expected[b];
+      ASSERT_TRUE(std::abs(apart) < kApart || (shown[a] < shown[b]) == (apart < 0)) << map << " " << i;
+    }
+    ++compared;
+  }
+  EXPECT_GT(compared, 1000);
+}
+
 TEST(CascadeColors, differ_between_neighbouring_maps) {
   for (int map = 0; map < 15; ++map) EXPECT_NE(cascade_color(map), cascade_color(map + 1));
 }
