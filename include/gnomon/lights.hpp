@@ -46,7 +46,7 @@ struct LightCosts {
 struct LightOptions {
   /// The plans of all lights are made with it (light_options). Sizes, errors and budgets of resolution are
   /// not read.
-  PlanOptions plan;
+  PlanOptions plan{};
   /// Texels of the pool's sides, multiples of most_size, up to 2^16.
   int pool_width = 4096, pool_height = 4096;
   /// Most texels that all maps may have together, at least 1. More than the pool has: the pool.
@@ -59,7 +59,7 @@ struct LightOptions {
   /// in the mean over frames: maps of a light that is due every n-th frame cost an n-th. Frames with new or
   /// moved lights cost more (LightPlan::due_milliseconds).
   double millisecond_budget = 0.0;
-  LightCosts costs;  ///< of millisecond_budget; LightPlan has the sums in any case
+  LightCosts costs{};  ///< of millisecond_budget; LightPlan has the sums in any case
   /// Side of the smallest maps, texels, a power of two up to most_size. Smaller ones only where the budget
   /// does not suffice for all lights: never below least_budget_side, rounded up to a power of two.
   int least_size = 64;

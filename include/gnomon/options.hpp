@@ -79,6 +79,7 @@ enum class SplitScheme : std::uint8_t {
   automatic,
   given
 };
+/// Which depths SplitOptions divides: SplitOptions::range says what each of them is.
 enum class SplitRange : std::uint8_t { automatic, receivers, camera };
 
 [[nodiscard]] std::string_view to_string(SplitScheme scheme) noexcept;
@@ -102,7 +103,8 @@ struct SplitOptions {
   /// practical: blend of uniform (0) and logarithmic (1) splits, 0..1.
   double lambda = 0.7;
   /// View depth, world units, from which error counts: nearer surfaces keep their shadow and do not draw
-  /// texels towards the eye. Also the first split of SplitScheme::pseudo_near. 0: the near plane itself.
+  /// texels towards the eye. SplitScheme::pseudo_near begins its logarithmic splits there. 0: the near plane
+  /// itself.
   double pseudo_near = 0.0;
   /// Which depths are divided: those that hold receivers in view, or the camera's whole range. `automatic`
   /// takes the receivers', but for Fit::stable and cascades that CadenceOptions keep: these must not depend
@@ -380,9 +382,9 @@ struct ResolutionOptions {
   /// PruneRule::metric_resolution is on; they are never larger unless texel_budget is set.
   int max_size = 1024;
   /// Aliasing error m (screen pixels per texel) that suffices; 0: none, all cascades are used. Above 0, the
-  /// plan takes the fewest cascades whose m_max bound is at or below it. Where none are, it takes those with
-  /// the least bound. It makes each map as small as the bound allows. Costs up to `cascades` times as much to
-  /// plan.
+  /// plan takes the fewest cascades whose m_max bound is at or below it, else those with the least bound. It
+  /// makes each map as small as that allows. Objective::max meets more bounds than the default, which does
+  /// not count air. Costs up to `cascades` times as much to plan.
   double max_error = 0.0;
   /// Most texels that all maps may have together; 0: no budget. By Objective::picture, texels are distributed
   /// so that the mean error over visible points, given or guessed, is least: maps that show more get more.
@@ -436,9 +438,9 @@ struct WarpOptions {
   /// The error that a warp must lower to be used.
   Objective objective = Objective::picture;
   /// World-space box whose error counts `focus_weight` times: a hero, a cockpit, a table top. Everything else
-  /// stays in the map, with larger texels. A box that is small in the view holds few of the points that count,
-  /// and may gain nothing. An empty box, the default, means none.
-  Box focus;
+  /// stays in the map, with larger texels. A box that is small in the view holds few of the points that
+  /// count, and may gain nothing. An empty box, the default, means none.
+  Box focus{};
   double focus_weight = 4.0;  ///< 1..1e6
   /// Planes that get a map each, besides the cascades, in which every texel is one pixel's image on the plane
   /// (warps::plane_optimal); default none. Receivers near a plane take its map and all others the cascades,
@@ -497,19 +499,19 @@ struct PlanOptions {
   /// for the same error. With the shape paraboloid it is wide from 85 degrees on.
   int cascades = 4;
   /// How many texels each map gets.
-  ResolutionOptions resolution;
+  ResolutionOptions resolution{};
   /// How a map's rectangle is fitted to its slice: tight for the smallest texels, stable against shimmering.
   Fit fit = Fit::tight;
   /// Where one cascade ends and the next begins.
-  SplitOptions split;
+  SplitOptions split{};
   /// The perspective warp, and the error that it must lower.
-  WarpOptions warp;
+  WarpOptions warp{};
   /// How often the cascades behind the first are planned.
-  CadenceOptions cadence;
+  CadenceOptions cadence{};
   /// How far filter kernels reach.
-  FilterExtent filter;
+  FilterExtent filter{};
   /// How far depths are moved off the surface, in texels.
-  BiasOptions bias;
+  BiasOptions bias{};
   /// Local lights: distance at which maps begin, over that of the farthest receiver. Read where the scene's
   /// boxes leave it open, as those of a room that holds its light do. In
   /// kLeastLightNearShare..kMaxLightNearShare. Nearer casters then cast no shadow; nearer boxes that do not
@@ -518,10 +520,10 @@ struct PlanOptions {
   /// 2^-17 (docs/bias.md).
   double light_near_share = 0x1p-10;
   /// Clip space of the matrices in the plan.
-  ClipSpace clip_space;
-  /// Work that may be omitted. Default: the exact rules of prune_rules.def, and light_depths, by which depths
-  /// are stored more finely. PruneRules::all() adds the other bounded rules: among others, maps shrink to the
-  /// size that their error bound needs.
+  ClipSpace clip_space{};
+  /// Work that may be omitted. Default: the exact rules of prune_rules.def, light_depths and equal_cascades.
+  /// PruneRules::all() adds the other bounded rules: among others, maps shrink to the size that their error
+  /// bound needs.
   PruneRules prune = default_prune_rules();
   /// Equal in all members.
   bool operator==(const PlanOptions&) const = default;

@@ -88,7 +88,7 @@ struct PageOptions {
   /// pages can be cached. Any other fit one map round the visible receivers. `warp.warp` warps that base;
   /// none is the default here, as levels already follow the view. `filter` sets the border. resolution,
   /// split, cascades, cadence and `warp.shape` have no effect.
-  PlanOptions plan;
+  PlanOptions plan{};
   const PagePolicy* policy = nullptr;  ///< nullptr: page_policies::resolution
   /// Texels along each side that a page serves: 64, 128 or 256. Smaller pages follow the visible surfaces
   /// more closely; each costs a draw and a border. A page takes page_texels + 2 border_texels along each

@@ -80,11 +80,12 @@ struct Omission {
   double a = 0.0, b = 0.0;  ///< as OmissionKind states
   std::int64_t saves_texels = 0;  ///< texels that are not drawn
 };
-/// Writes "what" and "why" as two lines of English, each cut to `size - 1` characters; no heap.
+/// An omission in words.
 struct OmissionText {
   std::array<char, 48> what;  ///< zero-terminated
   std::array<char, 144> why;  ///< zero-terminated
 };
+/// Says what was omitted and why, as two lines of English, each cut to its array's size; no heap.
 [[nodiscard]] OmissionText describe(const Omission& omission) noexcept;
 
 /// An array of `room` records. A new one leaves them unset: setting all the records of a plan would take a

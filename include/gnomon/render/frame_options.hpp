@@ -63,7 +63,7 @@ struct FrameOptions {
   SplitTransition transition = SplitTransition::cut;  ///< between cascades
   SampleNoise noise = SampleNoise::still;             ///< of sample patterns and of dithered transitions
   std::uint32_t frame_index = 0;                      ///< counts frames, for noise that moves; may wrap round
-  Accumulation accumulation;                          ///< of the mask over frames
+  Accumulation accumulation{};                        ///< of the mask over frames
   /// The surface whose depth the maps store. A frame with another one than the last frame's draws all maps.
   DepthLayer depth_layer = DepthLayer::front;
   /// DepthLayer::dual: the farthest that it stores behind the first surface, in texels at the centre of the
@@ -99,7 +99,7 @@ struct FrameOptions {
   double lost_shadow_share = 1e-4;
   /// Clusters of the image, each with a list of the lights that reach it. With a tile_pixels of 0 every light
   /// has passes of its own, as where the driver has no storage buffers in fragment shaders.
-  ClusterOptions light_clusters;
+  ClusterOptions light_clusters{};
   /// Bounds of casters that the caller says have changed since the last frame, where they were and where they
   /// are, world space. Cached maps and pages are drawn again where a box reaches them. Instances moved by
   /// Renderer::move_instance and Renderer::apply_pose are known already.

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "geometry/matrix.hpp"
 #include "geometry/usable.hpp"
 #include "geometry/vector.hpp"
 #include "gnomon/camera.hpp"
@@ -25,10 +26,6 @@ bool all_usable(const glm::dmat4& m) noexcept {
     }
   }
   return true;
-}
-
-glm::dvec4 row_of(const glm::dmat4& m, int row) noexcept {
-  return {m[0][row], m[1][row], m[2][row], m[3][row]};
 }
 
 /// False for what rounds to zero next to `scale`.

@@ -429,6 +429,8 @@ TEST(Pages, scenes_at_the_end_of_the_range_are_planned_or_refused) {
         EXPECT_TRUE(std::isfinite(page_map(plan, page).clip_from_world[3][0]));
       }
       EXPECT_LE(plan.points + plan.points_outside, street.points.size());
+      EXPECT_EQ(plan.status == PlanStatus::invalid_input, !plan.invalid_field.empty());
+      EXPECT_TRUE(offset >= 1e20 || plan.status == PlanStatus::ok);
     }
   }
 }

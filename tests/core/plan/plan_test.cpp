@@ -190,11 +190,21 @@ TEST(Plan, more_cascades_lower_the_error_on_the_ground) {
   }
 }
 
+// As README has it: compilers warn of members that are missing, but for those with a default.
+TEST(Plan, options_are_given_by_name_without_the_others) {
+  PlanOptions options;
+  options.cascades = 3;
+  EXPECT_EQ((PlanOptions{.cascades = 3}), options);
+  EXPECT_EQ((PageOptions{.capacity = 12}.plan), PlanOptions{});
+  EXPECT_EQ((LightOptions{.pool_width = 512}.plan), PlanOptions{});
+}
+
 TEST(Plan, the_filter_margin_is_whole_texels_that_hold_the_kernel) {
   Case c = ground_case();
   for (const auto& [radius, margin] : {std::pair{0.0, 0}, {0.5, 1}, {1.0, 1}, {3.2, 4}}) {
     c.options.filter.texels = radius;
     const ShadowPlan plan = c.plan();
+    EXPECT_GT(plan.map_count, 0);
     for (const ShadowMap& map : plan.maps()) EXPECT_EQ(map.filter_margin_texels, margin);
   }
 }
