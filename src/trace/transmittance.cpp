@@ -20,13 +20,6 @@ float linear_of(std::uint8_t encoded) noexcept {
   return static_cast<float>(v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4));
 }
 
-int wrapped(int texel, int size, TextureWrap wrap) noexcept {
-  if (wrap == TextureWrap::clamp_to_edge) return std::clamp(texel, 0, size - 1);
-  const int period = wrap == TextureWrap::mirrored_repeat ? 2 * size : size;
-  const int at = ((texel % period) + period) % period;
-  return at < size ? at : period - 1 - at;
-}
-
 /// The colour of a picture at a texture coordinate, linear; white without a picture.
 class Picture {
  public:

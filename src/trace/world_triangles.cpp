@@ -9,20 +9,6 @@
 namespace gnomon::trace {
 namespace {
 
-int wrapped(int texel, int size, TextureWrap wrap) noexcept {
-  switch (wrap) {
-    case TextureWrap::clamp_to_edge:
-      return std::clamp(texel, 0, size - 1);
-    case TextureWrap::mirrored_repeat: {
-      const int at = ((texel % (2 * size)) + 2 * size) % (2 * size);
-      return at < size ? at : 2 * size - 1 - at;
-    }
-    case TextureWrap::repeat:
-      break;
-  }
-  return ((texel % size) + size) % size;
-}
-
 /// Texture coordinates beyond this are no texture any more; the cast to int needs some bound.
 constexpr double kFarTexel = 1e9;
 

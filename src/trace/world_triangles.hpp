@@ -1,6 +1,7 @@
 // All triangles of a scene, placed in the world, and what of them alpha masks leave.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <glm/vec2.hpp>
@@ -11,6 +12,14 @@
 #include "gnomon/scene/scene.hpp"
 
 namespace gnomon::trace {
+
+/// The texel of a row of `size` that a texture coordinate's texel stands for.
+[[nodiscard]] inline int wrapped(int texel, int size, TextureWrap wrap) noexcept {
+  if (wrap == TextureWrap::clamp_to_edge) return std::clamp(texel, 0, size - 1);
+  const int period = wrap == TextureWrap::mirrored_repeat ? 2 * size : size;
+  const int at = ((texel % period) + period) % period;
+  return at < size ? at : period - 1 - at;
+}
 
 /// What a mask cuts out of a surface.
 struct Cutout {
