@@ -20,6 +20,11 @@ namespace gnomon::tool {
 
 /// Sets the choice `key` by its name; false where the name is unknown.
 [[nodiscard]] bool set_plan_choice(std::string_view key, std::string_view name, PlanOptions& options);
+/// Whether a lambda has no effect on such splits, whatever else is chosen.
+[[nodiscard]] constexpr bool never_blends(SplitScheme scheme) noexcept {
+  return scheme == SplitScheme::uniform || scheme == SplitScheme::logarithmic ||
+         scheme == SplitScheme::pseudo_near || scheme == SplitScheme::given;
+}
 /// Whether a grid of this fit only stays where it is from frame to frame: a warped one always, a stable one
 /// beside receivers that move.
 [[nodiscard]] constexpr bool needs_history(Fit fit) noexcept {

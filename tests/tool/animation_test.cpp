@@ -189,7 +189,7 @@ TEST(Playing, the_fly_command_plays_while_it_flies) {
   EXPECT_EQ(spawn_gnomon({"fly", scene.file, "--animation-fps", "2"}).exit_code, 2);
 }
 
-TEST(Playing, stable_fits_fly_with_a_history_that_nobody_asked_for) {
+TEST(Playing, stable_fits_fly_with_a_history_of_their_own) {
   const SceneFile scene;
   const auto fly = [&](std::vector<std::string> more) {
     const auto folder = scene.folder.path() / "kept";

@@ -122,6 +122,14 @@ struct AccumulateRow {
   double wrong = 0.0, to_first = -1.0, flips = -1.0, ghosts = -1.0, mask_ms = 0.0, accumulate_ms = 0.0;
 };
 
+/// "street_pcf_radius_2_8": one file for each scene, filter and view.
+std::string picture_name(const AccumulateRow& row, const std::string& view) {
+  std::string name = scene_stem(row.scene) + "_" + row.filter + "_" + view;
+  for (char& c : name)
+    if (c == ':' || c == '=' || c == ',') c = '_';
+  return name;
+}
+
 void print_row(const AccumulateRow& row, bool json) {
   if (json) {
     nlohmann::ordered_json line{{"scene", row.scene},
@@ -165,7 +173,7 @@ void measure_rest(const AccumulateRequest& request, Run& run, const Camera& came
     progress.set(drawn);
     const bool counts = std::binary_search(wanted.begin(), wanted.end(), drawn);
     if (drawn == 1) first = misclassified(now.lit, truth);
-    if (counts) run.write_picture(row.filter.substr(0, row.filter.find(':')) + "_" + std::to_string(drawn));
+    if (counts) run.write_picture(picture_name(row, std::to_string(drawn)));
     DrawnMask next = run.draw(camera, drawn, true);
     if (counts) {
       row.frames = drawn;
@@ -204,7 +212,7 @@ void measure_sequence(const AccumulateRequest& request, Run& run, const Sequence
     sequence.pose(i);
     accumulated = run.draw(sequence.camera(i), i, true);
   }
-  run.write_picture(row.filter.substr(0, row.filter.find(':')) + "_" + sequence.name);
+  run.write_picture(picture_name(row, sequence.name));
   const double alone = row.wrong;
   row.view = sequence.name;
   row.frames = request.moving_frames;

@@ -154,9 +154,11 @@ std::vector<float> ExactResults::values(const ExactKey& key, std::size_t count,
     warn(file.string() + ": " + why + "; it is made again");
   }
   values = compute();
+  if (!writes_) return values;
   std::filesystem::create_directories(folder_, error);
   const std::string why = write_whole_file(file, packed(values));
-  if (!why.empty() && std::exchange(writes_, false)) warn(file.string() + ": is not written: " + why);
+  writes_ = why.empty();
+  if (!writes_) warn(file.string() + ": is not written, and none after it: " + why);
   return values;
 }
 

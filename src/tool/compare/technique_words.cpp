@@ -13,6 +13,7 @@
 #include "identifier_word.hpp"
 #include "page_setting.hpp"
 #include "picture_words.hpp"
+#include "plan_option.hpp"
 
 namespace gnomon::tool {
 namespace {
@@ -123,11 +124,15 @@ TechniqueWarp technique_warp(const std::string& option, const std::string& word)
   if (warp.warp == nullptr && name != "auto")
     refuse_name(option, word, names_in(all_warps(), {"all", "auto"}));
   if (colon == std::string::npos) return warp;
+  const std::string behind = word.substr(colon + 1);
   Objective objective;
-  if (objective_from_name(word.substr(colon + 1), objective))
+  if (objective_from_name(behind, objective)) {
     warp.objective = objective;
-  else
-    warp.shape = technique_shape("--shapes", word.substr(colon + 1));
+    return warp;
+  }
+  warp.shape = find_shape(behind);
+  if (warp.shape == nullptr)
+    refuse_name(option + " " + name + ":", behind, names_in(all_shapes(), plan_choice_names("objective")));
   return warp;
 }
 

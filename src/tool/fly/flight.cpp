@@ -100,7 +100,7 @@ void draw_comparison(Studio& studio, const Camera& camera, int frame) {
     const ShadowPlan plan =
         make_plan(camera, light_of(options, studio.flight.scene), studio.flight.bounds(), plan_options);
     studio.renderer.draw(plan, camera, studio.filter, {});
-    const PixelAliasing m = pixel_aliasing(studio.renderer.aliasing());
+    const report::PixelAliasing m = pixel_aliasing(studio.renderer.aliasing());
     strip.add(fmt::format("{}: m p95 {:.3g}, median {:.3g}, {:.0f} % undersampled",
                           warp == nullptr ? "auto" : warp->name, m.p95, m.p50, 100.0 * m.share_undersampled),
               studio.renderer.image(), studio.renderer.heat_map());

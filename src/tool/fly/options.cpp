@@ -47,6 +47,8 @@ void resolve_budget(const Request& request, Options& options) {
   if (options.budget.milliseconds > 0.0 && !options.cost_model)
     throw std::runtime_error("--budget-ms: wants --cost-model FILE, which gnomon calibrate writes");
   const bool chosen = options.budget.milliseconds > 0.0 || options.budget.target_error > 0.0;
+  if (options.cost_model && !chosen)
+    throw std::runtime_error("--cost-model requires --budget-ms or --target-error");
   if (chosen && options.perceptual_resolution)
     throw std::runtime_error(
         "--resolution perceptual: --budget-ms and --target-error choose the maps already");
@@ -82,6 +84,9 @@ Options resolved(const Request& request) {
   check_scene_word("scene", options.scene);
   options.out = request.out;
   if (request.lambda_given && !request.split_given) (void)set_plan_choice("split", "practical", options.plan);
+  if (request.lambda_given && never_blends(options.plan.split.scheme))
+    throw std::runtime_error(
+        fmt::format("--lambda: --split {} takes none", to_string(options.plan.split.scheme)));
   if (request.stable) (void)set_plan_choice("fit", "stable", options.plan);
   render::set_margin(options.filter, options.plan);
   options.prune = options.plan.prune;
@@ -126,7 +131,7 @@ std::vector<Option> flight_options(Request& request) {
        .completion = Completion::files},
       {.name = "--frames",
        .target = &options.frames,
-       .help = "frames along the camera path",
+       .help = "frames along the camera path, from its first point to its last; gnomon compare takes others",
        .range = {{1, kMaxFrames}},
        .given = &options.frames_given},
       size_option(options.width, options.height, "size of a frame in pixels, WIDTHxHEIGHT",

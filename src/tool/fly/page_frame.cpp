@@ -47,7 +47,7 @@ DrawnPages draw_with_pages(const Options& options, const Flight& flight, const C
   row.stats.milliseconds[static_cast<std::size_t>(render::Pass::shadow_maps)] += map_ms;
   const PageFrameImages images{renderer.mask(), renderer.positions(), renderer.normals()};
   const std::vector<float> m = page_aliasing(plan, camera, images);
-  row.aliasing = pixel_aliasing(m);
+  row.aliasing = report::pixel_aliasing(m);
   row.m_bound[0] = pages.measure().worst_side;
   row.pages =
       PageCounts{row.stats.pages, row.stats.pages_drawn, static_cast<int>(plan.levels.size()), plan.target_m};

@@ -115,32 +115,12 @@ std::string line_of(const FrameRow& row, int cascades) {
 
 }  // namespace
 
-PixelAliasing pixel_aliasing(const FloatImage& aliasing) {
+report::PixelAliasing pixel_aliasing(const FloatImage& aliasing) {
   std::vector<float> m;
   m.reserve(aliasing.values.size() / 4);
   for (std::size_t i = 0; i < aliasing.values.size(); i += 4)
     m.push_back(aliasing.values[i + 3] < 0.0f ? 0.0f : aliasing.values[i]);
-  return pixel_aliasing(m);
-}
-
-PixelAliasing pixel_aliasing(const std::vector<float>& of_pixels) {
-  std::vector<float> m;
-  m.reserve(of_pixels.size());
-  std::copy_if(of_pixels.begin(), of_pixels.end(), std::back_inserter(m), [](float v) { return v > 0.0f; });
-  const auto undersampled = std::count_if(m.begin(), m.end(), [](float v) { return v > 1.0f; });
-  PixelAliasing result;
-  result.pixels = m.size();
-  if (m.empty()) return result;
-  const auto quantile = [&m](double q) {
-    const auto at = m.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(m.size() - 1));
-    std::nth_element(m.begin(), at, m.end());
-    return static_cast<double>(*at);
-  };
-  result.p50 = quantile(0.50);
-  result.p95 = quantile(0.95);
-  result.max = quantile(1.0);
-  result.share_undersampled = static_cast<double>(undersampled) / static_cast<double>(m.size());
-  return result;
+  return report::pixel_aliasing(m);
 }
 
 std::string warps_text(const ShadowPlan& plan) {

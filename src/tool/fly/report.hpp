@@ -11,18 +11,12 @@
 
 #include "gnomon/plan.hpp"
 #include "gnomon/render/renderer.hpp"
+#include "gnomon/report/errors.hpp"
 
 namespace gnomon::tool::fly {
 
 /// The aliasing error over the pixels of a frame whose surface faces the light and lies in a map.
-struct PixelAliasing {
-  double p50 = 0.0, p95 = 0.0, max = 0.0;
-  double share_undersampled = 0.0;  ///< of those pixels, m > 1
-  std::size_t pixels = 0;
-};
-[[nodiscard]] PixelAliasing pixel_aliasing(const FloatImage& aliasing);
-/// The same from m of each pixel; 0 where there is none.
-[[nodiscard]] PixelAliasing pixel_aliasing(const std::vector<float>& m);
+[[nodiscard]] report::PixelAliasing pixel_aliasing(const FloatImage& aliasing);
 
 /// Pages of a frame.
 struct PageCounts {
@@ -44,7 +38,7 @@ struct FrameRow {
   PlanStatus status{};
   std::int64_t plan_ns = 0;
   render::FrameStats stats;
-  PixelAliasing aliasing;
+  report::PixelAliasing aliasing;
   std::optional<PageCounts> pages;         ///< in place of maps
   std::optional<LightCounts> lights;       ///< where all of a file shine
   std::array<double, kMaxMaps> m_bound{};  ///< of each map, over all that is in view; of all pages at once

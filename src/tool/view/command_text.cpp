@@ -48,6 +48,7 @@ void add_settings(const Settings& settings, std::string& text) {
   const Json now = plan_options_json(settings.plan), none = plan_options_json({});
   for (const auto& [key, value] : now.items()) {
     if (!is_spoken(key) || value == none[key]) continue;
+    if (key == "lambda" && never_blends(settings.plan.split.scheme)) continue;
     // Alone it would select the practical split.
     if (key == "lambda" && now["split"] == none["split"])
       text += " --split " + now["split"].get<std::string>();

@@ -19,6 +19,7 @@
 #include "level_picture.hpp"
 #include "lines.hpp"
 #include "page_aliasing.hpp"
+#include "plan_option.hpp"
 #include "refusals.hpp"
 
 namespace gnomon::tool::view {

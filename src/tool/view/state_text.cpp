@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "base/bounded_file.hpp"
+#include "base/json_scan.hpp"
 #include "base/json_words.hpp"
 #include "base/nearest_name.hpp"
 #include "base/whole_file.hpp"
@@ -141,6 +142,12 @@ class Reader {
       refuse(key, fmt::format("{:g} is not in {:g}..{:g}", number, least, most));
     out = number;
   }
+  void read(const char* key, int& out, int least, int most) {
+    double number = out;
+    read(key, number, static_cast<double>(least), static_cast<double>(most));
+    if (number != std::floor(number)) refuse(key, fmt::format("{:g} is not a whole number", number));
+    out = static_cast<int>(number);
+  }
   void read(const char* key, bool& out) {
     const Json* value = take(key);
     if (value == nullptr) return;
@@ -250,11 +257,9 @@ std::vector<SectionPlane> read_sections(Reader& from, const char* key) {
 std::optional<render::IdentifierTest> read_identifiers(Reader& reader) {
   std::size_t of = 0;  // off
   reader.read_name("identifiers", of, identifier_names());
-  double neighbours = 0.0;
+  int neighbours = 0;
   reader.read("identifier_neighbours", neighbours, 0, render::kMaxIdentifierNeighbours);
-  if (neighbours != std::floor(neighbours))
-    reader.refuse("identifier_neighbours", fmt::format("{:g} is not a whole number", neighbours));
-  return identifier_test(of, static_cast<int>(neighbours));
+  return identifier_test(of, neighbours);
 }
 
 PageSetting read_pages(const Json& json, const std::string& path) {
@@ -263,15 +268,12 @@ PageSetting read_pages(const Json& json, const std::string& path) {
   std::size_t policy = 0;  // off
   reader.read_name("policy", policy, page_policy_names());
   pages.policy = page_policy_of(page_policy_names()[policy]);
-  double texels = pages.page_texels, capacity = pages.capacity;
-  reader.read("page_texels", texels, kLeastPageTexels, kMaxPageTexels);
-  if (texels != 64.0 && texels != 128.0 && texels != 256.0)
-    reader.refuse("page_texels", fmt::format("{:g} is not 64, 128 or 256", texels));
-  reader.read("capacity", capacity, 1, kMaxPoolPages);
+  reader.read("page_texels", pages.page_texels, kLeastPageTexels, kMaxPageTexels);
+  if (pages.page_texels != 64 && pages.page_texels != 128 && pages.page_texels != 256)
+    reader.refuse("page_texels", fmt::format("{} is not 64, 128 or 256", pages.page_texels));
+  reader.read("capacity", pages.capacity, 1, kMaxPoolPages);
   reader.read("target_m", pages.target_m, 0.0, kMaxTargetM);
   reader.done();
-  pages.page_texels = static_cast<int>(texels);
-  pages.capacity = static_cast<int>(capacity);
   return pages;
 }
 
@@ -338,9 +340,7 @@ LightState read_light(const Json& json) {
 
 void read_rest(Reader& reader, State& state) {
   reader.read_name("view", state.view, names_of(view_names()));
-  double map = state.map;
-  reader.read("map", map, 0, kMaxPageLevels - 1);
-  state.map = static_cast<int>(map);
+  reader.read("map", state.map, 0, static_cast<int>(kMaxPageLevels) - 1);
   reader.read_name("comparison", state.comparison, names_of(comparison_names()));
   reader.read("b_is_truth", state.b_is_truth);
   reader.read("wipe", state.wipe, 0.0, 1.0);
@@ -370,22 +370,6 @@ void read_rest(Reader& reader, State& state) {
     fields.read("on", state.playing.on);
     fields.read("speed", state.playing.speed, -100.0, 100.0);
     fields.done();
-  }
-}
-
-void check_brackets(std::string_view text) {
-  int depth = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    if (quoted && text[i] == '\\')
-      ++i;
-    else if (text[i] == '"')
-      quoted = !quoted;
-    else if (!quoted && (text[i] == '{' || text[i] == '['))
-      ++depth;
-    else if (!quoted && (text[i] == '}' || text[i] == ']'))
-      --depth;
-    if (depth > kMaxCaseNesting) throw std::runtime_error("brackets are nested too deep");
   }
 }
 
@@ -440,7 +424,8 @@ std::string state_text(const State& state) {
 
 State read_state(std::string_view text) {
   if (text.size() > kMaxCaseBytes) throw std::runtime_error("larger than 16 MiB");
-  check_brackets(text);
+  if (nested_deeper_at(text, kMaxCaseNesting) != std::string_view::npos)
+    throw std::runtime_error("brackets are nested too deep");
   Json json;
   try {
     json = Json::parse(text);

@@ -190,6 +190,9 @@ Options resolved(const Request& request) {
   // As in case files: who gives a blend means the split that blends.
   if (is_given(request, "--lambda") && !is_given(request, "--split"))
     (void)set_plan_choice("split", "practical", state.a.plan);
+  if (is_given(request, "--lambda") && never_blends(state.a.plan.split.scheme))
+    throw std::runtime_error(
+        fmt::format("--lambda: --split {} takes none", to_string(state.a.plan.split.scheme)));
   check_page_size(state.a.pages);
   state.b = state.a;
   resolve_light(request, state.light);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -31,6 +32,20 @@ TEST(Accumulate, has_fewer_misclassified_pixels_after_more_frames_at_rest_and_on
   EXPECT_EQ(rows[3].at("view"), "moving");
   EXPECT_LT(rows[3].at("misclassified"), rows[2].at("misclassified"));
   EXPECT_GE(rows[3].at("ghosting"), 0.0);
+}
+
+TEST(Accumulate, writes_a_picture_for_each_scene_and_filter) {
+  const TemporaryFolder folder;
+  const Finished finished = run_gnomon({"accumulate", "builtin:fence", "builtin:room", "--size", "32x18",
+                                        "--map-size", "64", "--frames", "1", "--moving", "0", "--filters",
+                                        "pcf:radius=1", "pcf:radius=2", "--out", folder.path().string()});
+  ASSERT_EQ(finished.exit_code, 0) << finished.err;
+  std::vector<std::string> names;
+  for (const auto& file : std::filesystem::directory_iterator(folder.path()))
+    names.push_back(file.path().filename().string());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, (std::vector<std::string>{"fence_pcf_1.png", "fence_pcf_radius_2_1.png", "room_pcf_1.png",
+                                             "room_pcf_radius_2_1.png"}));
 }
 
 TEST(Accumulate, refuses_bad_input_in_one_line) {

@@ -41,6 +41,8 @@ TEST_F(Flythrough, refuses_bad_input_with_one_line_and_writes_nothing) {
       {"--frames 0", "--frames"},
       {"--cascades 99", "--cascades"},
       {"--lambda nan", "--lambda"},
+      {"--lambda 0.5 --split uniform", "--lambda"},
+      {"--cost-model model.json", "--cost-model requires"},
       {"--context vulkan", "vulkan"},
       {"--path no_such_path.json", "no_such_path.json"},
       {"--context glfw builtin:fence", "--context glfw"},
