@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
+#include <limits>
 #include <variant>
 
 #include "gnomon/light.hpp"
@@ -21,6 +22,12 @@ namespace gnomon {
   const glm::dvec3 way = sun != nullptr ? sun->direction : point - position_of(light);
   const double length = glm::length(way);
   return length > 0.0 ? way / length : glm::dvec3(0.0, -1.0, 0.0);
+}
+
+/// From a point to the light, world units; infinite to a sun.
+[[nodiscard]] inline double distance_to(const Light& light, const glm::dvec3& point) {
+  if (std::holds_alternative<DirectionalLight>(light)) return std::numeric_limits<double>::infinity();
+  return glm::length(position_of(light) - point);
 }
 
 }  // namespace gnomon

@@ -253,22 +253,13 @@ void report_disagreed(const LightLooks& looks, const Missed& missed, FindingList
   out.add(finding);
 }
 
-/// From a point to the light; infinite to a sun.
-double distance_to(const Light& light, const glm::dvec3& point) {
-  if (std::holds_alternative<DirectionalLight>(light)) return std::numeric_limits<double>::infinity();
-  return glm::length(position_of(light) - point);
-}
-
 void check_casters(const Capture& capture, const LightLooks& looks, const BrokenMaps& broken,
                    FindingList& out) {
   const Light& light = looks.source();
   std::vector<Faulty> cut(looks.map.size());
   std::vector<std::size_t> served(looks.map.size(), 0);
   std::size_t counted = 0;
-  // Every point against every caster: a few points of very many casters tell as much.
-  constexpr std::size_t kMostTests = 20'000'000;
-  const std::size_t casters = std::max<std::size_t>(looks.scene->casters.size(), 1);
-  const std::size_t step = 1 + looks.counts.size() * casters / kMostTests;
+  const std::size_t step = step_over_casters(looks.counts.size(), *looks.scene);
   for (std::size_t p = 0; p < looks.counts.size(); p += step) {
     if (looks.counts[p] == 0 || looks.chosen[p] < 0) continue;
     const auto at = static_cast<std::size_t>(looks.chosen[p]);

@@ -115,9 +115,7 @@ namespace {
 bool caster_reaches(const CapturedScene& scene, const Light& light, const glm::dvec3& point) {
   if (scene.casters.empty()) return true;
   const glm::dvec3 back = -travel_at(light, point);
-  const double light_at = std::holds_alternative<DirectionalLight>(light)
-                              ? std::numeric_limits<double>::infinity()
-                              : glm::length(position_of(light) - point);
+  const double light_at = distance_to(light, point);
   constexpr double kSurface = 1e-6;  // of a box's diagonal
   return std::any_of(scene.casters.begin(), scene.casters.end(), [&](const Box& caster) {
     const BoxCrossing crossing = crossing_of(caster, point, back);
@@ -127,6 +125,11 @@ bool caster_reaches(const CapturedScene& scene, const Light& light, const glm::d
 }
 
 }  // namespace
+
+std::size_t step_over_casters(std::size_t points, const CapturedScene& scene) noexcept {
+  constexpr std::size_t kMostTests = 20'000'000;
+  return 1 + points * std::max<std::size_t>(scene.casters.size(), 1) / kMostTests;
+}
 
 LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const CapturedScene& scene,
                     const SeenSurfaces& seen, int light) {
@@ -148,6 +151,9 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
   };
   // Surfaces within a few degrees of the light's ray are dark by shading alone.
   constexpr double kFaces = 0.05;
+  const std::size_t step = step_over_casters(seen.points.size(), scene);
+  std::size_t unserved = 0;
+  bool reached = true;  // of the last unserved point that was tested
   for (std::size_t p = 0; p < seen.points.size(); ++p) {
     const glm::dvec3& point = seen.points[p];
     const glm::dvec3 travel = travel_at(source, point);
@@ -185,8 +191,9 @@ LightLooks looks_of(const Capture& capture, const CapturedFrame& frame, const Ca
     looks.holding.push_back(holding);
     // Depths at which no caster can shadow anything need no map: a plan may omit it.
     const bool by_depth = looks.selection() == MapSelection::view_depth;
-    if (looks.counts[p] != 0 && by_depth && chosen < 0 && !caster_reaches(scene, source, point))
-      looks.counts[p] = 0;
+    if (looks.counts[p] == 0 || !by_depth || chosen >= 0) continue;
+    if (unserved++ % step == 0) reached = caster_reaches(scene, source, point);
+    looks.counts[p] = reached ? 1 : 0;
   }
   return looks;
 }

@@ -45,8 +45,7 @@ struct LightLooks {
   std::vector<std::size_t> map;       ///< indices of its maps in the frame
   std::vector<std::vector<Look>> of;  ///< by map of this light, then by point
   std::vector<char> lit;              ///< by point: on the lit side, whatever its depth
-  /// By point: on the lit side, and within the depths that maps serve, or where a caster reaches between
-  /// them.
+  /// By point: on the lit side, no deeper than maps serve, and at a map's depths or within a caster's reach.
   std::vector<char> counts;
   std::vector<int> chosen;   ///< by point: map of this light that the selection takes, -1: none
   std::vector<int> holding;  ///< by point: first map that holds it, in depth, too; -1: none
@@ -57,6 +56,10 @@ struct LightLooks {
 
 [[nodiscard]] LightLooks looks_of(const Capture& capture, const CapturedFrame& frame,
                                   const CapturedScene& scene, const SeenSurfaces& seen, int light);
+
+/// From one point to the next that is tested against every caster: a few points of very many casters tell as
+/// much.
+[[nodiscard]] std::size_t step_over_casters(std::size_t points, const CapturedScene& scene) noexcept;
 
 /// Radius of the ball round the part of the view at the map's depths, up to `deepest`, world units.
 [[nodiscard]] double slice_radius(const CapturedFrame& frame, const CapturedMap& map,

@@ -34,12 +34,6 @@ glm::dmat4 matrix(const Json& numbers) {
   return m;
 }
 
-Json numbers(const glm::dmat4& matrix) {
-  Json list = Json::array();
-  for (int i = 0; i < 16; ++i) list.push_back(matrix[i / 4][i % 4]);
-  return list;
-}
-
 glm::dmat4 scaled(double x, double y, double z, double shift_z) {
   glm::dmat4 m = glm::scale(glm::dmat4(1.0), {x, y, z});
   m[3][2] = shift_z;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "judge/judge.hpp"
+#include "plan_capture.hpp"
 
 namespace gnomon::judge::test {
 
@@ -24,9 +25,8 @@ void for_each_map(Json& capture, const std::function<void(Json& map, std::size_t
 /// What read_capture() says of the text: "taken" where it refuses nothing.
 [[nodiscard]] std::string refusal(const std::string& text);
 
-/// A matrix of the file, and back.
+/// A matrix of the file; numbers() is the way back.
 [[nodiscard]] glm::dmat4 matrix(const Json& numbers);
-[[nodiscard]] Json numbers(const glm::dmat4& matrix);
 /// A matrix for transform_maps().
 [[nodiscard]] glm::dmat4 scaled(double x, double y, double z, double shift_z = 0.0);
 /// Multiplies `left` onto the left of every map's matrix.

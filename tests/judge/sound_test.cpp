@@ -128,13 +128,6 @@ Json box_of(const Box& b) {
   return {{"min", {b.min.x, b.min.y, b.min.z}}, {"max", {b.max.x, b.max.y, b.max.z}}};
 }
 
-Json camera_of(const Camera& camera) {
-  return {{"view_from_world", numbers(view_from_world(camera))},
-          {"clip_from_view", numbers(clip_from_view(camera))},
-          {"width", camera.width},
-          {"height", camera.height}};
-}
-
 TEST(SoundCaptures, may_have_lights_below_a_ceiling) {
   // A floor, a lamp above it, and a ceiling above the lamp, which shadows nothing.
   PlanOptions options;
@@ -197,16 +190,9 @@ TEST(SoundCaptures, may_have_a_stable_map_round_a_slender_view) {
       perspective_camera({0, 2, 0}, {0, -0.05, -1}, {0, 1, 0}, 0.025, 1.5, 1.0, 60.0, 600, 400);
   const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.3, -1.0, 0.1}}, {ground, ground}, options);
   ASSERT_EQ(plan.map_count, 1);
-  const Json c{{"format", "gnomon-capture/1"},
-               {"camera", camera_of(camera)},
-               {"lights", {{{"type", "directional"}, {"direction", {0.3, -1.0, 0.1}}}}},
-               {"bias", {{"texels", 0.5}, {"follows_plane", true}}},
-               {"maps",
-                {{{"clip_from_world", numbers(plan.map[0].clip_from_world)},
-                  {"width", plan.map[0].width},
-                  {"height", plan.map[0].height},
-                  {"depths", {plan.map[0].depth_begin, plan.map[0].depth_end}}}}},
-               {"receivers", {box_of(ground[0])}}};
+  Json c = plan_capture(plan, camera, {0.3, -1.0, 0.1});
+  c["bias"] = {{"texels", 0.5}, {"follows_plane", true}};
+  c["receivers"] = Json::array({box_of(ground[0])});
   EXPECT_THAT(kinds(judged(c)), testing::IsEmpty());
 }
 
@@ -218,19 +204,10 @@ TEST(SoundCaptures, need_no_map_where_no_caster_reaches) {
   const ShadowPlan plan = make_plan(camera, DirectionalLight{{0.3, -1.0, 0.2}}, {tower, all}, {});
   ASSERT_GT(plan.map_count, 0);
   ASSERT_GT(plan.map[0].depth_begin, 20.0);
-  Json maps = Json::array();
-  for (const ShadowMap& map : plan.maps())
-    maps.push_back({{"clip_from_world", numbers(map.clip_from_world)},
-                    {"width", map.width},
-                    {"height", map.height},
-                    {"depths", {map.depth_begin, map.depth_end}}});
-  Json c{{"format", "gnomon-capture/1"},
-         {"camera", camera_of(camera)},
-         {"lights", {{{"type", "directional"}, {"direction", {0.3, -1.0, 0.2}}}}},
-         {"bias", {{"texels", 0.5}, {"follows_plane", true}}},
-         {"maps", maps},
-         {"casters", {box_of(tower[0])}},
-         {"receivers", {box_of(all[0]), box_of(all[1])}}};
+  Json c = plan_capture(plan, camera, {0.3, -1.0, 0.2});
+  c["bias"] = {{"texels", 0.5}, {"follows_plane", true}};
+  c["casters"] = Json::array({box_of(tower[0])});
+  c["receivers"] = Json::array({box_of(all[0]), box_of(all[1])});
   const Judgement judgement = judged(c);
   EXPECT_THAT(kinds(judgement), testing::IsEmpty());
   ASSERT_EQ(judgement.lights.size(), 1u);

@@ -7,6 +7,7 @@
 
 #include "gnomon/gnomon.hpp"
 #include "gnomon/scene/load.hpp"
+#include "judge/plan_capture.hpp"
 #include "process.hpp"
 
 namespace gnomon::test {
@@ -16,12 +17,6 @@ using Json = nlohmann::ordered_json;
 
 std::string capture(const char* name) {
   return std::string(GNOMON_CAPTURES "/") + name;
-}
-
-Json numbers(const glm::dmat4& m) {
-  Json list = Json::array();
-  for (int i = 0; i < 16; ++i) list.push_back(m[i / 4][i % 4]);
-  return list;
 }
 
 /// A plan of ours for a built-in scene as any engine would hand its maps in.
@@ -38,21 +33,8 @@ std::string plan_as_capture(const TemporaryFolder& folder, const std::string& sc
   options.cascades = 2;
   options.resolution.max_size = 512;
   const ShadowPlan plan = make_plan(camera, sun, {boxes, boxes}, options);
-  Json maps = Json::array();
-  for (const ShadowMap& map : plan.maps())
-    maps.push_back({{"clip_from_world", numbers(map.clip_from_world)},
-                    {"width", map.width},
-                    {"height", map.height},
-                    {"depths", {map.depth_begin, map.depth_end}}});
-  const Json file{{"format", "gnomon-capture/1"},
-                  {"camera",
-                   {{"view_from_world", numbers(view_from_world(camera))},
-                    {"clip_from_view", numbers(clip_from_view(camera))},
-                    {"width", camera.width},
-                    {"height", camera.height}}},
-                  {"lights", {{{"type", "directional"}, {"direction", {0.4, -1.0, -0.3}}}}},
-                  {"bias", {{"texels", 0.15}, {"slope_texels", 0.5}, {"follows_plane", true}}},
-                  {"maps", maps}};
+  nlohmann::json file = judge::test::plan_capture(plan, camera, sun.direction);
+  file["bias"] = {{"texels", 0.15}, {"slope_texels", 0.5}, {"follows_plane", true}};
   return folder.write("plan.json", file.dump());
 }
 
