@@ -6,13 +6,10 @@
 #include <limits>
 #include <variant>
 
+#include "base/grazing.hpp"
 #include "gnomon/light.hpp"
 
 namespace gnomon::trace {
-
-/// Light that meets a surface at less than this cosine only grazes it: a ray leaves the plane so slowly that
-/// the engine's error grows a thousandfold along it.
-inline constexpr double kGrazingCosine = 1e-3;
 
 struct LightRay {
   glm::dvec3 direction{0.0, 1.0, 0.0};  ///< unit, towards the light

@@ -1,13 +1,12 @@
 // The frame across the light in which casters are tested, and how far coordinates are rounded.
 #ifndef GNOMON_LISTS_LIGHT_FRAMES_GLSL
 #define GNOMON_LISTS_LIGHT_FRAMES_GLSL
+#include "pass/common/grazing.glsl"
+
 layout(std140, binding = 3) uniform LightFrames {
   vec4 row[3 * GNOMON_MAX_MAPS];  // per map: coordinates of a point relative to the camera
   vec4 light;  // 1: local; the scene's extent; how far a coordinate is rounded, per its size
 } light_frames;
-
-// A ray that only grazes a plane leaves it too slowly: gnomon::trace::kGrazingCosine.
-const float kGrazing = 1e-3;
 
 vec3 light_from_point(int map, vec3 position) {
   vec4 p = vec4(position, 1.0);

@@ -2,13 +2,13 @@
 // Screen pixels per shadow-map texel at every pixel's surface. Mirrors gnomon::measure_point: J = B T E, texels per
 // pixel, by way of a plane of constant depth (E), slid along the eye's ray onto the surface (T), into the map (B).
 #include "pass/common/frame.glsl"
+#include "pass/common/grazing.glsl"
 #include "pass/common/surface.glsl"
 
 layout(binding = 6) uniform sampler2D mask_image;
-// m_max, m_s, m_t, map. Map -1: sky, or no map serves the point. All m 0: the surface is turned from the light, or is
-// so nearly edge-on to it that rounding decides m. Exact rays leave such points undecided by the same cosine.
+// m_max, m_s, m_t, map. Map -1: sky, or no map serves the point. All m 0: the surface is turned from the light, or
+// light only grazes it, and rounding would decide m.
 layout(location = 0) out vec4 aliasing;
-const float kGrazingCosine = 1e-3;
 
 vec3 on_surface(vec3 step_view, vec3 ray, vec3 normal) {
   return step_view - ray * (dot(normal, step_view) / dot(normal, ray));
@@ -19,7 +19,7 @@ void main() {
   Surface s = surface_at(pixel);
   int map = int(texelFetch(mask_image, pixel, 0).g);
   aliasing = vec4(0.0, 0.0, 0.0, float(map));
-  if (s.sky || map < 0 || dot(s.normal, light_at(frame.light_place, s.position)) > -kGrazingCosine) return;
+  if (s.sky || map < 0 || dot(s.normal, light_at(frame.light_place, s.position)) > -kGrazing) return;
 
   bool orthographic = frame.forward.w > 0.5;
   vec3 ray = orthographic ? frame.forward.xyz : s.position;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
+#include "base/grazing.hpp"
 #include "gnomon/measure.hpp"
 #include "gnomon/render/picture.hpp"
 #include "picture_colors.hpp"
@@ -39,8 +40,6 @@ float pixel_aliasing(const PagePlan& plan, const Camera& camera, const PageFrame
   if (level == nullptr || !is_surface(images, pixel)) return 0.0f;
   const glm::dvec3 point = camera.position + vector_at(images.positions, pixel),
                    normal = vector_at(images.normals, pixel);
-  // As shaders/pass/mask/aliasing.frag.
-  constexpr double kGrazingCosine = 1e-3;
   if (glm::dot(normal, light_at(plan, *level, point)) > -kGrazingCosine) return 0.0f;
   return static_cast<float>(measure_point(*level, camera, point, normal).m_max);
 }

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "base/grazing.hpp"
 #include "gnomon/measure.hpp"
 #include "gnomon/render/renderer.hpp"
 #include "test_scene.hpp"
@@ -130,6 +131,28 @@ TEST(AliasingPass, is_what_neighbouring_pixels_see_in_the_map) {
       }
     }
     EXPECT_GT(compared, static_cast<std::size_t>(kSize * kSize / 4)) << warp->name;
+  }
+}
+
+TEST(AliasingPass, has_no_error_where_light_only_grazes_a_surface) {
+  Scene scene = empty_scene();
+  add_quad(scene, {-20, 0, 20}, {40, 0, 0}, {0, 0, -40});
+  const Camera camera = camera_on_box(kSize, kSize);
+  for (const auto& [cosine, counts] : {std::pair{0.5 * kGrazingCosine, false},
+                                       {-0.5 * kGrazingCosine, false},
+                                       {2.0 * kGrazingCosine, true}}) {
+    Renderer renderer(scene);
+    const glm::dvec3 light(std::sqrt(1.0 - cosine * cosine), -cosine, 0.0);
+    renderer.draw(plan_for(scene, camera, light, options_for(&warps::none, 1)), camera,
+                  renderer.prepare(filters::hard));
+    const FloatImage aliasing = renderer.aliasing();
+    std::size_t with_error = 0, served = 0;
+    for (std::size_t i = 0; i < aliasing.values.size(); i += 4) {
+      served += aliasing.values[i + 3] >= 0.0f;
+      with_error += aliasing.values[i] > 0.0f;
+    }
+    EXPECT_GT(served, 1000u) << cosine;
+    EXPECT_EQ(with_error, counts ? served : 0u) << cosine;
   }
 }
 
