@@ -59,6 +59,14 @@ bool set_plan_choice(std::string_view key, std::string_view name, PlanOptions& o
   return std::get<PlanChoice>(plan_field(key).place).set(name, options);
 }
 
+void resolve_lambda(bool lambda_given, bool split_given, PlanOptions& options) {
+  if (!lambda_given) return;
+  if (!split_given) (void)set_plan_choice("split", "practical", options);
+  if (never_blends(options.split.scheme))
+    throw std::runtime_error("--lambda: --split " + std::string(to_string(options.split.scheme)) +
+                             " takes none");
+}
+
 std::vector<std::string> plan_choice_names(std::string_view key) {
   return std::get<PlanChoice>(plan_field(key).place).names();
 }

@@ -20,6 +20,9 @@ namespace gnomon::tool {
 
 /// Sets the choice `key` by its name; false where the name is unknown.
 [[nodiscard]] bool set_plan_choice(std::string_view key, std::string_view name, PlanOptions& options);
+/// As in case files: who gives a blend and no split means the split that blends. Throws std::runtime_error
+/// where a blend is given for splits that never blend.
+void resolve_lambda(bool lambda_given, bool split_given, PlanOptions& options);
 /// Whether a lambda has no effect on such splits, whatever else is chosen.
 [[nodiscard]] constexpr bool never_blends(SplitScheme scheme) noexcept {
   return scheme == SplitScheme::uniform || scheme == SplitScheme::logarithmic ||

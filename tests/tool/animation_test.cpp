@@ -48,6 +48,15 @@ Image picture(Stage& stage, const State& state) {
   return stage.canvas().image();
 }
 
+/// Flies over the animated scene with these words, pictures in `folder`.
+Finished fly(const SceneFile& scene, const std::string& folder, const std::vector<std::string>& more) {
+  std::vector<std::string> words{"fly", scene.file, "--out", (scene.folder.path() / folder).string()};
+  words.insert(words.end(), more.begin(), more.end());
+  const Finished run = spawn_gnomon(words);
+  EXPECT_EQ(run.exit_code, 0) << run.err;
+  return run;
+}
+
 TEST(Playing, the_picture_is_that_of_the_time_alone) {
   const SceneFile scene;
   Stage stage(load(scene.file, LoadLimits{}.triangles));
@@ -164,20 +173,18 @@ TEST(Playing, the_view_command_draws_a_pose) {
 
 TEST(Playing, the_fly_command_plays_while_it_flies) {
   const SceneFile scene;
-  const auto fly = [&](const char* name, std::vector<std::string> more) {
+  const auto pictures = [&](const char* name, std::vector<std::string> more) {
+    more.insert(more.end(), {"--frames", "2", "--size", "96x54", "--map-size", "256"});
+    (void)fly(scene, name, more);
     const auto folder = scene.folder.path() / name;
-    std::vector<std::string> words{"fly", scene.file, "--out", folder.string(), "--frames",
-                                   "2",   "--size",   "96x54", "--map-size",    "256"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Finished run = spawn_gnomon(words);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
     return std::pair(test::content_of(folder / "frame_0000_image.png"),
                      test::content_of(folder / "frame_0001_image.png"));
   };
-  const auto rest = fly("rest", {}), plays = fly("plays", {"--animation", "0", "--animation-fps", "1"});
+  const auto rest = pictures("rest", {}),
+             plays = pictures("plays", {"--animation", "0", "--animation-fps", "1"});
   EXPECT_EQ(plays.first, rest.first) << "it begins at rest";
   EXPECT_NE(plays.second, rest.second);
-  const auto later = fly("later", {"--animation", "all", "--animation-start", "1"});
+  const auto later = pictures("later", {"--animation", "all", "--animation-start", "1"});
   EXPECT_NE(later.first, rest.first);
   const Finished unknown = spawn_gnomon({"fly", scene.file, "--animation", "run"});
   EXPECT_EQ(unknown.exit_code, 2);
@@ -191,52 +198,43 @@ TEST(Playing, the_fly_command_plays_while_it_flies) {
 
 TEST(Playing, stable_fits_fly_with_a_history_of_their_own) {
   const SceneFile scene;
-  const auto fly = [&](std::vector<std::string> more) {
-    const auto folder = scene.folder.path() / "kept";
-    std::vector<std::string> words{"fly",
-                                   scene.file,
-                                   "--out",
-                                   folder.string(),
-                                   "--animation",
-                                   "all",
-                                   "--size",
-                                   "192x108",
-                                   "--map-size",
-                                   "256",
-                                   "--frames",
-                                   "4",
-                                   "--animation-fps",
-                                   "2"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Finished run = spawn_gnomon(words);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
-    std::string pictures;
+  const auto pictures = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--animation", "all", "--animation-fps", "2", "--frames", "4", "--size",
+                             "192x108", "--map-size", "256"});
+    (void)fly(scene, "kept", more);
+    std::string all;
     for (const char* frame : {"0001", "0002", "0003"})
-      pictures += test::content_of(folder / ("frame_" + std::string(frame) + "_image.png"));
-    return pictures;
+      all += test::content_of(scene.folder.path() / "kept" / ("frame_" + std::string(frame) + "_image.png"));
+    return all;
   };
   for (const char* fit : {"stable", "warped_stable"})
-    EXPECT_EQ(fly({"--fit", fit}), fly({"--fit", fit, "--history"})) << fit;
+    EXPECT_EQ(pictures({"--fit", fit}), pictures({"--fit", fit, "--history"})) << fit;
   // Pages keep their grid without.
-  EXPECT_FALSE(fly({"--fit", "stable", "--pages", "clipmap", "--page-size", "64"}).empty());
+  EXPECT_FALSE(pictures({"--fit", "stable", "--pages", "clipmap", "--page-size", "64"}).empty());
+}
+
+TEST(Playing, stable_fits_are_shown_with_a_history_of_their_own) {
+  const SceneFile scene;
+  const auto pictures = [&](Fit fit, bool history) {
+    Stage stage(load(scene.file, LoadLimits{}.triangles));
+    std::vector<std::vector<std::uint8_t>> all;
+    for (const double time : {0.0, 0.5, 1.0, 1.5}) {
+      State state = at(scene, time);
+      state.a.plan.fit = fit;
+      state.a.history = history;
+      all.push_back(picture(stage, state).rgba);
+    }
+    return all;
+  };
+  for (const Fit fit : {Fit::stable, Fit::warped_stable})
+    EXPECT_EQ(pictures(fit, false), pictures(fit, true));
 }
 
 TEST(Playing, a_technique_is_chosen_by_the_poses_of_its_flight) {
   const SceneFile scene;
   const auto chosen = [&](std::vector<std::string> more) {
-    std::vector<std::string> words{"fly",
-                                   scene.file,
-                                   "--out",
-                                   (scene.folder.path() / "chosen").string(),
-                                   "--frames",
-                                   "1",
-                                   "--size",
-                                   "160x90",
-                                   "--target-error",
-                                   "0.001"};
-    words.insert(words.end(), more.begin(), more.end());
-    const Finished run = spawn_gnomon(words);
-    EXPECT_EQ(run.exit_code, 0) << run.err;
+    more.insert(more.end(), {"--frames", "1", "--size", "160x90", "--target-error", "0.001"});
+    const Finished run = fly(scene, "chosen", more);
     const std::size_t at = run.out.find("technique: ");
     EXPECT_NE(at, std::string::npos) << run.out;
     return run.out.substr(at, run.out.find('\n', at) - at);

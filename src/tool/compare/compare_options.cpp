@@ -116,7 +116,7 @@ Option shard_option(CompareRequest& request) {
 std::vector<Option> frame_options(CompareRequest& request) {
   return {{.name = "--frames",
            .target = &request.frames,
-           .help = "frames, in the middles of as many equal parts of the scene's camera path",
+           .help = "frames: the middles of as many equal parts of the camera path",
            .range = {{1, 100'000}}},
           {.name = "--animation",
            .target = &request.animation,

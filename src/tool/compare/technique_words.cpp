@@ -131,9 +131,10 @@ TechniqueWarp technique_warp(const std::string& option, const std::string& word)
     return warp;
   }
   warp.shape = find_shape(behind);
-  if (warp.shape == nullptr)
-    refuse_name(option + " " + name + ":", behind, names_in(all_shapes(), plan_choice_names("objective")));
-  return warp;
+  if (warp.shape != nullptr) return warp;
+  Words known = names_in(all_shapes(), plan_choice_names("objective"));
+  for (std::string& word_behind : known) word_behind.insert(0, name + ":");
+  refuse_name(option, word, known);
 }
 
 TechniqueSplit technique_split(const std::string& option, const std::string& word) {

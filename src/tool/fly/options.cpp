@@ -83,10 +83,7 @@ Options resolved(const Request& request) {
   Options options = request.options;
   check_scene_word("scene", options.scene);
   options.out = request.out;
-  if (request.lambda_given && !request.split_given) (void)set_plan_choice("split", "practical", options.plan);
-  if (request.lambda_given && never_blends(options.plan.split.scheme))
-    throw std::runtime_error(
-        fmt::format("--lambda: --split {} takes none", to_string(options.plan.split.scheme)));
+  resolve_lambda(request.lambda_given, request.split_given, options.plan);
   if (request.stable) (void)set_plan_choice("fit", "stable", options.plan);
   render::set_margin(options.filter, options.plan);
   options.prune = options.plan.prune;
@@ -131,7 +128,7 @@ std::vector<Option> flight_options(Request& request) {
        .completion = Completion::files},
       {.name = "--frames",
        .target = &options.frames,
-       .help = "frames along the camera path, from its first point to its last; gnomon compare takes others",
+       .help = "frames along the camera path, from its first point to its last",
        .range = {{1, kMaxFrames}},
        .given = &options.frames_given},
       size_option(options.width, options.height, "size of a frame in pixels, WIDTHxHEIGHT",

@@ -304,7 +304,7 @@ std::vector<Option> own_options(PanesRequest& request) {
   for (Option& option : measured_maps_options(request.maps)) options.push_back(std::move(option));
   options.push_back({.name = "--frames",
                      .target = &request.frames,
-                     .help = "frames, in the middles of as many equal parts of the scene's camera path",
+                     .help = "frames: the middles of as many equal parts of the camera path",
                      .range = {{1, 1000}}});
   options.push_back({.name = "--rounds",
                      .target = &request.rounds,

@@ -187,12 +187,7 @@ Options resolved(const Request& request) {
   if (!request.state.empty()) return options;
   State& state = options.state;
   resolve_plan(request, state.a.plan);
-  // As in case files: who gives a blend means the split that blends.
-  if (is_given(request, "--lambda") && !is_given(request, "--split"))
-    (void)set_plan_choice("split", "practical", state.a.plan);
-  if (is_given(request, "--lambda") && never_blends(state.a.plan.split.scheme))
-    throw std::runtime_error(
-        fmt::format("--lambda: --split {} takes none", to_string(state.a.plan.split.scheme)));
+  resolve_lambda(is_given(request, "--lambda"), is_given(request, "--split"), state.a.plan);
   check_page_size(state.a.pages);
   state.b = state.a;
   resolve_light(request, state.light);

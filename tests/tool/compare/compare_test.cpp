@@ -368,6 +368,7 @@ TEST(Compare, refuses_bad_input_before_it_measures) {
   EXPECT_EQ(run_gnomon({"compare", "/nowhere.glb", "--out", (folder.path() / "none").string()}).exit_code, 2);
   for (const auto& [option, value] :
        std::vector<std::pair<std::string, std::string>>{{"--warps", "bent"},
+                                                        {"--warps", "psm:nope"},
                                                         {"--shapes", "round"},
                                                         {"--splits", "even"},
                                                         {"--fits", "loose"},

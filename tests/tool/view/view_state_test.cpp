@@ -134,6 +134,8 @@ TEST(ViewState, that_is_broken_is_refused_with_the_key) {
   EXPECT_TRUE(refusal(with("\"triangle\"", "\"triangles\"")).starts_with("b.identifiers: is \"triangles\""));
   EXPECT_EQ(refusal(with("\"identifier_neighbours\": 2", "\"identifier_neighbours\": 1.5")),
             "b.identifier_neighbours: 1.5 is not a whole number");
+  EXPECT_EQ(refusal(with("\"capacity\": 77", "\"capacity\": 77.5")),
+            "b.pages.capacity: 77.5 is not a whole number");
   EXPECT_TRUE(refusal(with("\"layered\"", "\"layers\"")).starts_with("b.map_passes: is \"layers\""));
   EXPECT_TRUE(refusal(with("\"checker\"", "\"chequer\"")).find("did you mean 'checker'") !=
               std::string::npos);
@@ -156,6 +158,10 @@ TEST(ViewCommand, takes_a_blend_for_the_split_that_blends) {
   const std::string uniform = picture_by({"--lambda", "0"});
   EXPECT_EQ(uniform, picture_by({"--split", "practical", "--lambda", "0"}));
   EXPECT_NE(uniform, picture_by({"--lambda", "1"}));
+  const test::Finished refused = test::spawn_gnomon(
+      {"view", "builtin:hangar", "--out", "x.png", "--lambda", "0.5", "--split", "uniform"});
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("--lambda: --split uniform takes none"), std::string::npos) << refused.err;
 }
 
 TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
@@ -181,6 +187,9 @@ TEST(ViewState, is_a_command_that_names_what_is_not_the_default) {
   state.a.plan.split.lambda = 0.5;
   EXPECT_EQ(command_text(state),
             "gnomon view builtin:hangar --map-size 256 --split auto --lambda 0.5 --filter pcf");
+  state.a.plan.split.scheme = SplitScheme::uniform;
+  EXPECT_EQ(command_text(state), "gnomon view builtin:hangar --map-size 256 --split uniform --filter pcf")
+      << "a blend of none is refused";
   state = hangar();
   state.edits = {true, {{{-1, 0, 0}, 2.5}, {{0, 1, 0}, 3}}, "low.glb", UpAxis::z, true};
   state.height_world = 30.0;
