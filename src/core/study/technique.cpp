@@ -197,17 +197,20 @@ class Choosing {
   /// The least error for a fifth less cost; none where it costs nothing.
   [[nodiscard]] Technique cheaper_than(const Technique& chosen) const noexcept {
     Technique found;
+    if (!(cost(chosen) > 0.0)) return found;
     each([&](const Technique& t) {
-      if (cost(t) > kTrade * cost(chosen) || cost(t) == cost(chosen)) return;
+      if (cost(t) > kTrade * cost(chosen)) return;
       if (found.map_size == 0 || less(t.error, cost(t), found.error, cost(found))) found = t;
     });
     return found;
   }
   /// The least cost for a fifth less error; none where it has none.
   [[nodiscard]] Technique better_than(const Technique& chosen) const noexcept {
+    constexpr double kNone = 1e-12;  // sums of shares are rounded
     Technique found;
+    if (!(chosen.error > kNone)) return found;
     each([&](const Technique& t) {
-      if (t.error > kTrade * chosen.error || t.error == chosen.error) return;
+      if (t.error > kTrade * chosen.error) return;
       if (found.map_size == 0 || less(cost(t), t.error, cost(found), found.error)) found = t;
     });
     return found;

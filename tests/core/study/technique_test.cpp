@@ -116,6 +116,15 @@ TEST(Technique, says_what_less_cost_and_what_less_error_would_have_taken) {
   EXPECT_EQ(choice.tried, 3 * 4 * 5 * 2);
 }
 
+TEST(Technique, nothing_is_better_than_a_pick_without_error) {
+  Plain plain;
+  plain.budget.milliseconds = 15.0;
+  std::fill(plain.mask.begin(), plain.mask.end(), 1.0f);
+  const TechniqueChoice choice = plain.choose();
+  ASSERT_LT(choice.chosen.error, 1e-15);
+  EXPECT_EQ(choice.better.map_size, 0);
+}
+
 TEST(Technique, texels_are_spent_where_the_shadow_has_edges) {
   Plain plain;
   const Warp* const warp[] = {&warps::optimal};

@@ -42,6 +42,28 @@ TEST(FilterText, refuses_what_it_does_not_know_with_one_line_that_names_it) {
   }
 }
 
+TEST(FilterText, gives_the_filters_default_where_the_text_is_wrong) {
+  for (const char* text : {"vsm:radius=3,bleed=2", "vsm:radius=33", "vsm:bleed=0.5,soap"})
+    EXPECT_EQ(to_string(parse_filter(text).settings), "vsm") << text;
+  EXPECT_EQ(parse_filter("soap").settings.filter, nullptr);
+}
+
+TEST(FilterText, rounds_what_is_a_whole_number) {
+  int rounded = 0;
+  for (const Filter* filter : all_filters()) {
+    for (const FilterOption& option : filter->info.options) {
+      if (!option.whole) continue;
+      const double below = option.max - 0.75;
+      const std::string text =
+          std::string(filter->info.name) + ":" + std::string(option.name) + "=" + std::to_string(below);
+      EXPECT_EQ(parse_filter(text).settings.value(option.name), option.max - 1.0) << text;
+      ++rounded;
+    }
+  }
+  EXPECT_GT(rounded, 15);
+  EXPECT_EQ(parse_filter("vsm:anisotropy=3.7").settings.anisotropy, 4);
+}
+
 TEST(FilterText, reads_every_key) {
   const FilterSettings s =
       parse_filter(
